@@ -1,0 +1,20 @@
+// Binding points that every pass agrees on; C++ and GLSL.
+#ifndef TARN_SHARED_BINDINGS
+#define TARN_SHARED_BINDINGS
+
+// Uniform blocks
+#define BINDING_FRAME 0
+#define BINDING_MATERIALS 1
+// Textures that every ray needs; a pass's own inputs follow from 4
+#define BINDING_CELLS 0
+#define BINDING_BRICK_DISTANCE 1
+#define BINDING_ALBEDO_TABLE 2
+#define BINDING_BRICK_CHANGED 3
+#define BINDING_FIRST_INPUT 4
+
+// Side of a brick in voxels
+#define BRICK_SIDE 8
+// Largest stored distance between bricks
+#define BRICK_DISTANCE_MAX 31
+
+#endif

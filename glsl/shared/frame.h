@@ -1,0 +1,45 @@
+// The per-frame uniform block: one list of fields, a struct in C++ and a std140 block in GLSL. Only mat4, vec4,
+// ivec4 and uvec4, so that both layouts agree (a test compares GL_OFFSET with offsetof).
+#ifndef TARN_SHARED_FRAME
+#define TARN_SHARED_FRAME
+#include "shared/language.h"
+
+// A ray through normalised device coordinates (u, v) in [-1,1]^2 has the direction dir + u * right + v * up.
+#define TARN_FRAME_FIELDS(F)                                                                             \
+    F(vec4, camera_position_vox) /* xyz */                                                               \
+    F(vec4, camera_dir)          /* xyz: unit, through the centre of the picture */                      \
+    F(vec4, camera_right)        /* xyz: scaled by tan(fov / 2) * aspect */                              \
+    F(vec4, camera_up)           /* xyz: scaled by tan(fov / 2) */                                       \
+    F(vec4, previous_position_vox)                                                                       \
+    F(vec4, previous_dir)                                                                                \
+    F(vec4, previous_right)                                                                              \
+    F(vec4, previous_up)                                                                                 \
+    F(ivec4, world_size_vox)   /* xyz; w: 1 while a previous frame exists */                             \
+    F(uvec4, counters)         /* frame index, seed, samples per pixel, samples kept in exact mode */    \
+    F(vec4, sun_dir)           /* xyz: towards the sun; w: cosine of the angular radius */               \
+    F(vec4, sun_irradiance)    /* rgb on a surface that faces it; w: solid angle in sr, 0 for a point */ \
+    F(vec4, sun_radiance)      /* rgb of the disc, 0 for a point; w: 1 where there is a sun */           \
+    F(vec4, sky_zenith)        /* rgb radiance */                                                        \
+    F(vec4, sky_horizon)       /* rgb radiance */                                                        \
+    F(vec4, trace_limits)      /* max distance (vox), metres per voxel, firefly limit (0: none), unused */ \
+    F(ivec4, trace_options)    /* max bounces, roulette after (bounces), light sampling, unused */       \
+    F(ivec4, size_px)          /* traced width, height; shown width, height */                           \
+    F(vec4, history)           /* alpha (blend), cap (samples), unused, unused */                        \
+    F(vec4, display)           /* exposure factor, tone map, unused, unused */
+
+#ifdef __cplusplus
+namespace tarn {
+struct FrameBlock {
+#define TARN_FIELD(type, name) glm::type name{0};
+    TARN_FRAME_FIELDS(TARN_FIELD)
+#undef TARN_FIELD
+};
+}  // namespace tarn
+#else
+layout(std140, binding = 0) uniform FrameBlock {
+#define TARN_FIELD(type, name) type name;
+    TARN_FRAME_FIELDS(TARN_FIELD)
+#undef TARN_FIELD
+} frame;
+#endif
+#endif

@@ -1,0 +1,60 @@
+// Makes the picture of a Simulation: the frame's targets, the history, THE pass order. Owns its textures;
+// changes no cell.
+#pragma once
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/simulation.h"
+#include "core/image.h"
+#include "core/settings.h"
+#include "gl/texture.h"
+#include "gl/timers.h"
+#include "world/material_table.h"
+
+namespace tarn {
+
+// The first surface that a ray from the eye meets.
+struct Pick {
+    bool hit = false;
+    glm::ivec3 cell{0};    // the voxel hit
+    glm::ivec3 normal{0};  // unit, towards the eye's side; 0 where the eye is inside the voxel
+    std::uint8_t byte = 0;
+};
+
+class Renderer {
+  public:
+    Renderer(const Scene& scene, gl::Timers& timers);
+    ~Renderer();
+    Renderer(const Renderer&) = delete;
+    Renderer& operator=(const Renderer&) = delete;
+
+    // One picture of `size_px`, sRGB-encoded RGBA8. The texture stays the renderer's.
+    const gl::Texture& render(const Simulation& simulation, const Settings& settings, glm::ivec2 size_px);
+
+    // History starts anew with the next frame.
+    void reset_history();
+
+    // What lies under the pixel `at_px` (from the top left) of a picture of `size_px`. Waits for the GPU.
+    // `through_water`: water is passed as if it were air.
+    Pick pick(const Simulation& simulation, const Settings& settings, glm::ivec2 size_px, glm::vec2 at_px,
+              bool through_water);
+
+    // Of the last render(); both wait for the GPU.
+    ImageRgba8 read_picture() const;
+    ImageRgb32f read_radiance() const;  // before exposure and tone mapping, at the shown size
+
+    std::uint64_t samples() const;           // kept per pixel (exact: all; else of the youngest frame's cap)
+    std::uint64_t rejected_samples() const;  // not finite, since the start
+    double compile_ms() const;               // spent building programs so far
+
+    std::vector<std::string> poll_reload();
+
+  private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace tarn

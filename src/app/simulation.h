@@ -1,0 +1,76 @@
+// The world on the GPU: the cells, the structures that hang on them, the tick counter. Owns its textures and
+// passes; draws nothing.
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <glm/glm.hpp>
+#include <memory>
+#include <vector>
+
+#include "core/settings.h"
+#include "gl/buffer.h"
+#include "gl/texture.h"
+#include "gl/timers.h"
+#include "world/edits.h"
+#include "world/scene.h"
+
+namespace tarn {
+
+// What springs made and drains took since the scene was loaded.
+struct FlowTotals {
+    std::uint64_t sprung_water_quanta = 0, drained_water_quanta = 0;
+    std::uint64_t sprung_sand_voxels = 0, drained_sand_voxels = 0;
+    bool operator==(const FlowTotals&) const = default;
+};
+
+class Simulation {
+  public:
+    // Throws Error when the world does not fit the driver's limits.
+    Simulation(const Scene& scene, gl::Timers& timers);
+    ~Simulation();
+    Simulation(const Simulation&) = delete;
+    Simulation& operator=(const Simulation&) = delete;
+
+    // n ticks, then the structures for changed bricks. `progress(done)` is called now and then.
+    void step(int n, const Settings& settings, const std::function<void(int)>& progress = {});
+
+    void apply(const Edit& edit, EditHistory& history);
+    void write(const std::vector<CellChange>& changes);  // undo, redo
+    // Replaces the whole world's cells (size unchanged); the tick stays.
+    void write_cells(const Cells& cells);
+
+    // A cell's byte or a whole copy; both wait for the GPU.
+    std::uint8_t read_cell(glm::ivec3 cell) const;
+    Cells read_cells() const;
+    FlowTotals flow_totals() const;
+    const EditTotals& edit_totals() const;
+
+    // Counts of some frames ago, refreshed without waiting a few times a second of play (by `frame` calls).
+    const Census& recent_census() const;
+    void refresh_census(double now_s);
+    // Bricks whose cells changed in the last step() or edit, 0 when nothing moved (read back without
+    // waiting).
+
+    glm::ivec3 size_vox() const;
+    std::uint64_t tick() const;
+    void set_tick(std::uint64_t tick);  // for tests of counter wrap
+    // Counts every step, edit or load that may have changed a cell.
+    std::uint64_t version() const;
+
+    const gl::Texture& cells() const;  // R8UI, size_vox
+    const gl::Texture& brick_distance()
+        const;  // RG8UI, ceil(size / 8): Chebyshev distance in bricks to the nearest
+                // brick that is not all air (r), not all full water (g); 0 in it.
+                // Bricks cut by the world's end are never "all full water".
+    const gl::Texture& brick_changed() const;  // R32UI, ceil(size / 8): version() at which cells in it last
+                                               // changed (low 32 bits)
+
+    // Rebuilds shaders whose files changed; returns error texts (empty string: rebuilt).
+    std::vector<std::string> poll_reload();
+
+  private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace tarn

@@ -1,0 +1,68 @@
+// The one list of settings. It gives the struct, range checks, the command line, the panel with its tooltips
+// and the JSON stored beside results. Add a setting here and nowhere else.
+//
+// INT(name, default, min, max, group, effect, help)      REAL(...) likewise, float
+// BOOL(name, default, group, effect, help)               CHOICE(Enum, name, default, group, effect, help)
+// VEC3(name, x, y, z, min, max, group, effect, help)     COLOR(...) likewise, linear RGB
+// effect: NONE, IMAGE (the picture's history restarts), TARGETS (as IMAGE, and textures are made anew)
+#pragma once
+
+#define TARN_SETTINGS(INT, REAL, BOOL, CHOICE, VEC3, COLOR)                                                  \
+    REAL(ticks_per_second, 30, 1, 1000, SIMULATION, NONE, "Simulation ticks per second of play.")            \
+    INT(ticks_per_frame, 0, 0, 1000, SIMULATION, NONE,                                                       \
+        "Ticks before each frame; 0: by the clock in the window, none headless.")                            \
+    CHOICE(WaterTier, water_tier, Block, SIMULATION, NONE,                                                   \
+           "Rule of the water: block moves water in blocks of 2x2x2 (fast, slow to level).")                 \
+    INT(film_threshold, 3, 1, 16, SIMULATION, NONE,                                                          \
+        "Quanta (sixteenths of a voxel) of water per cell that stay as a film instead of spreading.")        \
+    CHOICE(Quality, quality, Balanced, LIGHT, NONE, "Preset of the settings below, from fast to exact.")     \
+    INT(max_bounces, 4, 0, 1024, LIGHT, IMAGE,                                                               \
+        "Scatterings along a path before it ends (refraction counts).")                                      \
+    REAL(max_distance_vox, 4096, 1, 10000000, LIGHT, IMAGE, "Longest ray in voxels; beyond it is sky.")      \
+    INT(samples_per_pixel, 1, 1, 64, LIGHT, IMAGE, "Paths per pixel in each frame.")                         \
+    REAL(resolution_scale, 1, 0.25, 1, LIGHT, TARGETS, "Traced pixels per shown pixel, along each side.")    \
+    CHOICE(Traversal, traversal, Distance, LIGHT, IMAGE,                                                     \
+           "voxel: step through every voxel; distance: skip empty bricks. Same picture.")                    \
+    CHOICE(LightSampling, light_sampling, Sun, LIGHT, IMAGE,                                                 \
+           "Light sampled at every scattering: none (found by chance), the sun, or sun and sky.")            \
+    CHOICE(DiffuseSampling, diffuse_sampling, Cosine, LIGHT, IMAGE,                                          \
+           "Diffuse directions: by their cosine, or uniform over the hemisphere (more noise).")              \
+    BOOL(sun_through_water, true, LIGHT, IMAGE,                                                              \
+         "Connect points under smooth water to the sun through the surface, in closed form.")                \
+    BOOL(caustics, false, LIGHT, IMAGE,                                                                      \
+         "Keep sunlight found by chance after mirrors and glass: right in the limit, sparkles before it.")   \
+    INT(roulette_after, 3, 0, 1024, LIGHT, IMAGE, "Bounces before Russian roulette; 1024: none.")            \
+    BOOL(jitter, false, LIGHT, IMAGE, "Spread samples over the pixel: smooth edges once averaged.")          \
+    REAL(firefly_limit, 20, 0, 1000000, LIGHT, IMAGE,                                                        \
+         "Upper limit of one sample's radiance after the first bounce; 0: none. Darkens rare bright paths.") \
+    CHOICE(                                                                                                  \
+        History, history, Count, IMAGE_FILTER, TARGETS,                                                      \
+        "Reuse of earlier frames: none, blend (constant weight), count (running mean), exact (all frames).") \
+    REAL(history_alpha, 0.1, 0.001, 1, IMAGE_FILTER, IMAGE,                                                  \
+         "Weight of the new frame where history is blend.")                                                  \
+    INT(history_cap, 48, 1, 4096, IMAGE_FILTER, IMAGE, "Most frames kept where history is count.")           \
+    CHOICE(Filter, filter, EdgeAware, IMAGE_FILTER, TARGETS,                                                 \
+           "Blur against noise: none, gaussian, or edge_aware (stays within one surface).")                  \
+    INT(filter_passes, 1, 1, 5, IMAGE_FILTER, IMAGE,                                                         \
+        "Passes of the filter, each twice as wide as the last.")                                             \
+    VEC3(camera_position_vox, 0, 0, 0, -10000000, 10000000, CAMERA, NONE, "Position of the eye in voxels.")  \
+    REAL(camera_yaw_deg, 0, -360, 360, CAMERA, NONE, "Heading: 0 looks along -z and grows to the right.")    \
+    REAL(camera_pitch_deg, 0, -90, 90, CAMERA, NONE, "Elevation of the view; grows upward.")                 \
+    REAL(camera_fov_deg, 60, 1, 179, CAMERA, NONE, "Vertical field of view.")                                \
+    REAL(water_ior, 1.333, 0.75, 3, WATER, IMAGE, "Refractive index of water.")                              \
+    COLOR(water_color, 0.7, 0.93, 0.96, 0.0001, 1, WATER, IMAGE,                                             \
+          "Colour of white light after one metre of water.")                                                 \
+    REAL(sun_azimuth_deg, 0, -360, 360, SKY, IMAGE, "Where the sun stands, as a camera's yaw.")              \
+    REAL(sun_elevation_deg, 45, -90, 90, SKY, IMAGE, "Height of the sun, as a camera's pitch.")              \
+    COLOR(sun_irradiance, 3, 2.8, 2.5, 0, 1000000, SKY, IMAGE,                                               \
+          "Sunlight on a surface that faces it; black: no sun.")                                             \
+    REAL(sun_angular_radius_deg, 0.27, 0, 90, SKY, IMAGE, "Angular radius of the sun; 0: sharp shadows.")    \
+    COLOR(sky_zenith, 0.3, 0.5, 0.9, 0, 1000000, SKY, IMAGE, "Radiance of the sky overhead.")                \
+    COLOR(sky_horizon, 0.8, 0.9, 1, 0, 1000000, SKY, IMAGE, "Radiance of the sky at and below the horizon.") \
+    REAL(exposure_ev, 0, -20, 20, DISPLAY, NONE, "Exposure in stops.")                                       \
+    CHOICE(ToneMap, tone_map, Filmic, DISPLAY, NONE, "filmic: soft highlights; linear: clipped at white.")   \
+    BOOL(overlay, true, DISPLAY, NONE, "Show times, ticks and counts in a corner.")                          \
+    BOOL(vsync, true, DISPLAY, NONE, "Wait for the display between frames.")                                 \
+    REAL(fly_speed_vox_s, 24, 0.1, 10000, DISPLAY, NONE,                                                     \
+         "Flying speed in voxels per second; Shift: four times.")                                            \
+    REAL(mouse_sensitivity, 0.15, 0.01, 5, DISPLAY, NONE, "Degrees of turn per pixel of mouse movement.")

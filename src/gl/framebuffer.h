@@ -1,0 +1,33 @@
+// A framebuffer over textures it does not own, and the full-screen triangle. Move-only owner of one name.
+#pragma once
+#include <glad/gl.h>
+
+#include <glm/glm.hpp>
+#include <initializer_list>
+
+#include "gl/texture.h"
+
+namespace tarn::gl {
+
+class Framebuffer {
+  public:
+    Framebuffer() = default;
+    // Attachment i is the i-th texture; all have one size. Textures must outlive the framebuffer.
+    Framebuffer(const char* label, std::initializer_list<const Texture*> attachments);
+    ~Framebuffer();
+    Framebuffer(Framebuffer&& other) noexcept;
+    Framebuffer& operator=(Framebuffer&& other) noexcept;
+
+    GLuint name() const { return name_; }
+    glm::ivec2 size() const { return size_; }
+    explicit operator bool() const { return name_ != 0; }
+
+    // Runs the bound render program once for every pixel.
+    void draw_fullscreen() const;
+
+  private:
+    GLuint name_ = 0;
+    glm::ivec2 size_{0};
+};
+
+}  // namespace tarn::gl

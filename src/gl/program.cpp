@@ -1,0 +1,217 @@
+#include "gl/program.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "core/assets.h"
+#include "core/error.h"
+
+namespace tarn::gl {
+
+namespace {
+
+void append_file(const std::string& path, ShaderText& out) {
+    const std::string asset = "glsl/" + path;
+    if (std::find(out.files.begin(), out.files.end(), asset) != out.files.end()) return;
+    const std::size_t index = out.files.size();
+    out.files.push_back(asset);
+    std::istringstream lines(read_asset(asset));
+    std::string line;
+    int number = 0;
+    out.text += fmt::format("#line 1 {}\n", index);
+    while (std::getline(lines, line)) {
+        ++number;
+        constexpr std::string_view directive = "#include \"";
+        if (line.starts_with(directive)) {
+            const auto end = line.find('"', directive.size());
+            if (end == std::string::npos) fail("{}:{}: #include needs a closing quote", asset, number);
+            append_file(line.substr(directive.size(), end - directive.size()), out);
+            out.text += fmt::format("#line {} {}\n", number + 1, index);
+        } else {
+            out.text += line;
+            out.text += '\n';
+        }
+    }
+}
+
+// Driver logs name files by number: "3:17(5): error"; a legend makes them readable.
+std::string legend(const ShaderText& source) {
+    std::string text;
+    for (std::size_t i = 0; i < source.files.size(); ++i)
+        text += fmt::format("  {}: {}\n", i, source.files[i]);
+    return text;
+}
+
+class Shader {
+  public:
+    Shader(GLenum type, const ShaderText& source) : name_(glCreateShader(type)) {
+        const char* text = source.text.c_str();
+        glShaderSource(name_, 1, &text, nullptr);
+        glCompileShader(name_);
+        GLint ok = 0;
+        glGetShaderiv(name_, GL_COMPILE_STATUS, &ok);
+        if (ok == 0) {
+            GLint length = 0;
+            glGetShaderiv(name_, GL_INFO_LOG_LENGTH, &length);
+            std::string log(static_cast<std::size_t>(std::max(length, 1)), '\0');
+            glGetShaderInfoLog(name_, length, nullptr, log.data());
+            glDeleteShader(name_);
+            fail("{}: shader does not compile:\n{}\nfiles:\n{}", source.files.front(), log.c_str(),
+                 legend(source));
+        }
+    }
+    ~Shader() { glDeleteShader(name_); }
+    Shader(const Shader&) = delete;
+    Shader& operator=(const Shader&) = delete;
+    GLuint name() const { return name_; }
+
+  private:
+    GLuint name_;
+};
+
+struct Built {
+    GLuint name;
+    std::vector<std::string> files;
+};
+
+Built build(const ProgramDesc& desc) {
+    const bool compute = !desc.compute.empty();
+    std::vector<ShaderText> sources;
+    if (compute) {
+        sources.push_back(shader_text(desc.compute, desc.defines));
+    } else {
+        sources.push_back(shader_text(desc.vertex, desc.defines));
+        sources.push_back(shader_text(desc.fragment, desc.defines));
+    }
+    Built built{glCreateProgram(), {}};
+    try {
+        for (std::size_t i = 0; i < sources.size(); ++i) {
+            const GLenum type = compute ? GL_COMPUTE_SHADER : i == 0 ? GL_VERTEX_SHADER : GL_FRAGMENT_SHADER;
+            const Shader shader(type, sources[i]);
+            glAttachShader(built.name, shader.name());
+            for (const std::string& file : sources[i].files) built.files.push_back(file);
+        }
+        glLinkProgram(built.name);
+        GLint ok = 0;
+        glGetProgramiv(built.name, GL_LINK_STATUS, &ok);
+        if (ok == 0) {
+            GLint length = 0;
+            glGetProgramiv(built.name, GL_INFO_LOG_LENGTH, &length);
+            std::string log(static_cast<std::size_t>(std::max(length, 1)), '\0');
+            glGetProgramInfoLog(built.name, length, nullptr, log.data());
+            fail("{}: program does not link:\n{}", desc.label, log.c_str());
+        }
+    } catch (...) {
+        glDeleteProgram(built.name);
+        throw;
+    }
+    glObjectLabel(GL_PROGRAM, built.name, -1, desc.label);
+    return built;
+}
+
+std::int64_t newest(const std::vector<std::string>& files) {
+    std::int64_t stamp = 0;
+    for (const std::string& file : files) stamp = std::max(stamp, asset_stamp(file));
+    return stamp;
+}
+
+}  // namespace
+
+ShaderText shader_text(const std::string& path,
+                       const std::vector<std::pair<std::string, std::string>>& defines) {
+    ShaderText out;
+    out.text = "#version 450 core\n";
+    for (const auto& [name, value] : defines) out.text += fmt::format("#define {} {}\n", name, value);
+    append_file(path, out);
+    return out;
+}
+
+Program::Program(ProgramDesc desc) : desc_(std::move(desc)) {
+    Built built = build(desc_);
+    name_ = built.name;
+    files_ = std::move(built.files);
+    stamp_ = newest(files_);
+}
+
+Program::~Program() {
+    if (name_ != 0) glDeleteProgram(name_);
+}
+
+Program::Program(Program&& other) noexcept
+    : desc_(std::move(other.desc_)),
+      name_(std::exchange(other.name_, 0)),
+      files_(std::move(other.files_)),
+      stamp_(other.stamp_),
+      locations_(std::move(other.locations_)) {}
+
+Program& Program::operator=(Program&& other) noexcept {
+    std::swap(desc_, other.desc_);
+    std::swap(name_, other.name_);
+    std::swap(files_, other.files_);
+    std::swap(stamp_, other.stamp_);
+    std::swap(locations_, other.locations_);
+    return *this;
+}
+
+void Program::dispatch(glm::uvec3 groups) const {
+    use();
+    glDispatchCompute(groups.x, groups.y, groups.z);
+}
+
+void Program::dispatch_for(glm::ivec3 items, glm::ivec3 local) const {
+    dispatch(glm::uvec3((items + local - 1) / local));
+}
+
+GLint Program::location(const char* uniform) const {
+    const auto found = locations_.find(uniform);
+    if (found != locations_.end()) return found->second;
+    const GLint index = glGetUniformLocation(name_, uniform);
+    if (index < 0) fail("{}: the program has no active uniform {}", desc_.label, uniform);
+    locations_.emplace(uniform, index);
+    return index;
+}
+
+void Program::set(const char* u, int v) const {
+    glProgramUniform1i(name_, location(u), v);
+}
+void Program::set(const char* u, std::uint32_t v) const {
+    glProgramUniform1ui(name_, location(u), v);
+}
+void Program::set(const char* u, float v) const {
+    glProgramUniform1f(name_, location(u), v);
+}
+void Program::set(const char* u, glm::ivec2 v) const {
+    glProgramUniform2i(name_, location(u), v.x, v.y);
+}
+void Program::set(const char* u, glm::ivec3 v) const {
+    glProgramUniform3i(name_, location(u), v.x, v.y, v.z);
+}
+void Program::set(const char* u, glm::uvec3 v) const {
+    glProgramUniform3ui(name_, location(u), v.x, v.y, v.z);
+}
+void Program::set(const char* u, glm::vec2 v) const {
+    glProgramUniform2f(name_, location(u), v.x, v.y);
+}
+void Program::set(const char* u, glm::vec3 v) const {
+    glProgramUniform3f(name_, location(u), v.x, v.y, v.z);
+}
+void Program::set(const char* u, glm::vec4 v) const {
+    glProgramUniform4f(name_, location(u), v.x, v.y, v.z, v.w);
+}
+
+std::optional<std::string> Program::poll_reload() {
+    const std::int64_t stamp = newest(files_);
+    if (stamp == stamp_) return std::nullopt;
+    stamp_ = stamp;
+    try {
+        Built built = build(desc_);
+        glDeleteProgram(std::exchange(name_, built.name));
+        files_ = std::move(built.files);
+        locations_.clear();
+        return "";
+    } catch (const Error& error) {
+        return error.what();
+    }
+}
+
+}  // namespace tarn::gl

@@ -1,0 +1,81 @@
+// Headless: an EGL surfaceless context. No window system, no surface, no configuration.
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+
+#include "core/error.h"
+#include "gl/context.h"
+#include "platform/platform.h"
+
+namespace tarn {
+
+namespace {
+
+class EglContext {
+  public:
+    EglContext() {
+        display_ = eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+        if (display_ == EGL_NO_DISPLAY || eglInitialize(display_, nullptr, nullptr) == EGL_FALSE)
+            fail("EGL: no surfaceless display (error {:#x}); an OpenGL 4.5 driver such as Mesa's is needed",
+                 eglGetError());
+        if (eglBindAPI(EGL_OPENGL_API) == EGL_FALSE)
+            fail("EGL: the driver has no desktop OpenGL; 4.5 core is needed");
+        const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
+                                     4,
+                                     EGL_CONTEXT_MINOR_VERSION,
+                                     5,
+                                     EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                     EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                     EGL_CONTEXT_OPENGL_DEBUG,
+                                     EGL_TRUE,
+                                     EGL_NONE};
+        context_ = eglCreateContext(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
+        if (context_ == EGL_NO_CONTEXT) {
+            const EGLint error = eglGetError();
+            eglTerminate(display_);
+            fail("EGL: no OpenGL 4.5 core context (error {:#x}); a driver with OpenGL 4.5 is needed", error);
+        }
+        if (eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_FALSE)
+            fail("EGL: cannot use the context without a surface (error {:#x})", eglGetError());
+        gl::load(eglGetProcAddress);
+    }
+    ~EglContext() {
+        eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+        eglDestroyContext(display_, context_);
+        eglTerminate(display_);
+    }
+    EglContext(const EglContext&) = delete;
+    EglContext& operator=(const EglContext&) = delete;
+
+  private:
+    EGLDisplay display_ = EGL_NO_DISPLAY;
+    EGLContext context_ = EGL_NO_CONTEXT;
+};
+
+class Headless : public Platform {
+  public:
+    Headless(glm::ivec2 size_px, int frames) : size_px_(size_px), frames_(frames) {}
+
+    std::optional<Input> next_frame() override {
+        if (frames_-- <= 0) return std::nullopt;
+        Input input;
+        input.size_px = size_px_;
+        return input;
+    }
+    void present(const gl::Texture& /*picture*/) override {}
+    void capture_mouse(bool /*captured*/) override {}
+    void set_vsync(bool /*on*/) override {}
+    void set_title(const std::string& /*title*/) override {}
+
+  private:
+    EglContext context_;
+    glm::ivec2 size_px_;
+    int frames_;
+};
+
+}  // namespace
+
+std::unique_ptr<Platform> make_headless(glm::ivec2 size_px, int frames) {
+    return std::make_unique<Headless>(size_px, frames);
+}
+
+}  // namespace tarn

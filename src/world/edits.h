@@ -1,0 +1,64 @@
+// Edits: plain data {tick, shape, material}, applied to cells, kept for undo and replay. Knows no GL: it
+// works on a copy of the region that an edit touches.
+#pragma once
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <vector>
+
+#include "world/scene.h"
+
+namespace tarn {
+
+enum class BrushShape { Sphere, Cube };
+
+struct Edit {
+    std::uint64_t tick = 0;
+    BrushShape shape = BrushShape::Sphere;
+    glm::ivec3 center_vox{0};  // a cell
+    int radius_vox =
+        0;  // 0: one cell. Sphere: cells with |c - center| <= radius + 0.5; cube: max norm <= radius
+    std::uint8_t material = MATERIAL_AIR;  // MATERIAL_AIR removes; water is placed full
+    bool overwrite = false;  // placing: false fills air and water (not sand or solids), true replaces all
+    bool operator==(const Edit&) const = default;
+};
+
+// Cells that `edit` may touch, clipped to a world of `size_vox`; empty (volume 0) where it misses it.
+Box bounds_of(const Edit& edit, glm::ivec3 size_vox);
+
+// Voxels and quanta that edits added and took, by material id.
+struct EditTotals {
+    Census placed, removed;
+};
+
+// Applies `edit` to `region`, the bytes of bounds_of(edit), x fastest; adds to `totals`. Returns whether any
+// changed.
+bool apply_edit(const Edit& edit, const Box& bounds, std::vector<std::uint8_t>& region, EditTotals& totals);
+
+// Cells before and after one stroke, for undo. A stroke is all edits between pressing and releasing a button.
+struct CellChange {
+    glm::ivec3 cell;
+    std::uint8_t before, after;
+};
+
+class EditHistory {
+  public:
+    // Opens a new stroke; edits recorded until the next one belong to it. Clears what could be redone.
+    void begin_stroke();
+    void record(const Edit& edit, const Box& bounds, const std::vector<std::uint8_t>& before,
+                const std::vector<std::uint8_t>& after);
+    // Changes to write (last first for undo), or nothing. The oldest strokes go once 64 MiB are kept.
+    std::optional<std::vector<CellChange>> undo();  // before/after swapped: `after` is the byte to write
+    std::optional<std::vector<CellChange>> redo();
+    bool can_undo() const { return !undo_.empty(); }
+    bool can_redo() const { return !redo_.empty(); }
+    const std::vector<Edit>& log() const { return log_; }  // every edit since the start, for replay
+    void clear();
+
+  private:
+    std::vector<std::vector<CellChange>> undo_, redo_;
+    std::vector<Edit> log_;
+    std::size_t kept_changes_ = 0;
+};
+
+}  // namespace tarn
