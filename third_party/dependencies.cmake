@@ -23,7 +23,7 @@ target_include_directories(glad SYSTEM PUBLIC ${GLAD_DIR}/include)
 
 add_library(tarn_imgui INTERFACE)
 target_link_libraries(tarn_imgui INTERFACE PkgConfig::IMGUI glfw)
-target_include_directories(tarn_imgui SYSTEM INTERFACE ${IMGUI_INCLUDE_DIRS} ${IMGUI_INCLUDE_DIRS}/backends)
+target_include_directories(tarn_imgui SYSTEM INTERFACE ${IMGUI_INCLUDE_DIRS})
 
 add_library(tarn_cli11 INTERFACE)
 target_include_directories(tarn_cli11 SYSTEM INTERFACE ${CLI11_INCLUDE})

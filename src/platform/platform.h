@@ -31,10 +31,11 @@ enum class Key {
     Settings,
     Overlay,
     Screenshot,
-    MouseLook,
+    MouseLook,      // toggles
+    MouseLookHold,  // while held
     Brush,
-    Save,
-    Quit,
+    Overwrite,
+    Release,  // gives the mouse back, closes panels
     Digit1,
     Digit2,
     Digit3,
@@ -55,7 +56,8 @@ struct Input {
     std::array<bool, static_cast<std::size_t>(Key::Count)> pressed{};  // went down since the last frame
     std::array<bool, static_cast<std::size_t>(MouseButton::Count)> mouse_down{};  // outside panels
     std::array<bool, static_cast<std::size_t>(MouseButton::Count)> mouse_pressed{};
-    glm::vec2 mouse_px{0};  // from the top left
+    glm::vec2 mouse_px{0};          // from the top left
+    bool mouse_on_picture = false;  // inside the window and over no panel
     glm::vec2 mouse_delta_px{0};
     float wheel = 0;           // steps, up positive
     bool interactive = false;  // true where somebody sees panels
