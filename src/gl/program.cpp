@@ -11,7 +11,8 @@ namespace tarn::gl {
 namespace {
 
 void append_file(const std::string& path, ShaderText& out) {
-    const std::string asset = "glsl/" + path;
+    // Kernels of tests stay beside them and are read from the source tree only.
+    const std::string asset = path.starts_with("tests/") ? path : "glsl/" + path;
     if (std::find(out.files.begin(), out.files.end(), asset) != out.files.end()) return;
     const std::size_t index = out.files.size();
     out.files.push_back(asset);

@@ -15,7 +15,7 @@ namespace tarn::gl {
 
 struct ProgramDesc {
     const char* label = "";
-    std::string compute;           // path below glsl/, or
+    std::string compute;           // path below glsl/ (a test's kernel: tests/kernels/...), or
     std::string vertex, fragment;  // both
     std::vector<std::pair<std::string, std::string>> defines;
 };
