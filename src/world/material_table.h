@@ -4,6 +4,7 @@
 #include <array>
 #include <glm/glm.hpp>
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include "core/settings.h"
