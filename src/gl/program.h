@@ -15,9 +15,9 @@ namespace tarn::gl {
 
 struct ProgramDesc {
     const char* label = "";
-    std::string compute;           // path below glsl/ (a test's kernel: tests/kernels/...), or
-    std::string vertex, fragment;  // both
-    std::vector<std::pair<std::string, std::string>> defines;
+    std::string compute{};             // path below glsl/ (a test's kernel: tests/kernels/...), or
+    std::string vertex{}, fragment{};  // both
+    std::vector<std::pair<std::string, std::string>> defines{};
 };
 
 struct ShaderText {
