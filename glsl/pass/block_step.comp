@@ -1,0 +1,127 @@
+// One tick of the `block` tier: an invocation owns a block of 2x2x2 cells, reads them, moves water and sand among
+// them and writes those that changed. Cells outside the world are wall.
+#include "shared/materials.h"
+#include "shared/hash.h"
+#include "shared/bindings.h"
+
+layout(local_size_x = 8, local_size_y = 8, local_size_z = 4) in;
+
+layout(r8ui, binding = 0) uniform uimage3D cells;
+layout(r32ui, binding = 1) writeonly uniform uimage3D brick_changed;
+
+uniform ivec3 size_vox;
+uniform ivec3 offset_vox;      // 0 or 1 along each axis
+uniform uint tick_key;         // hash2(seed, tick)
+uniform int film_threshold;    // quanta
+uniform uint version;          // stamped on bricks whose cells change
+
+// What a cell holds, ordered so that comparisons say it all: 0..FULL quanta of water (0: air), SAND, CLOSED.
+const int FULL = int(QUANTA_PER_VOXEL);
+const int SAND = 32;
+const int CLOSED = 64;
+
+int content_of(uint cell) {
+    int water = int(cell) - int(MATERIAL_WATER) + 1;
+    if (cell == MATERIAL_AIR) return 0;
+    if (cell == MATERIAL_SAND) return SAND;
+    return water >= 1 && water <= FULL ? water : CLOSED;
+}
+
+bool is_open(int content) { return content <= FULL; }
+bool supports(int content) { return content >= FULL; }
+
+// A column: water falls as far as there is room, sand sinks through air and water.
+void fall(inout int upper, inout int lower) {
+    if (!is_open(lower)) return;
+    if (upper == SAND) {
+        upper = lower;
+        lower = SAND;
+    } else if (is_open(upper)) {
+        int moved = min(upper, FULL - lower);
+        upper -= moved;
+        lower += moved;
+    }
+}
+
+// Sand that rests slides down beside its column where that is open; what was there rises into its place.
+void slide(inout int from_upper, int from_lower, int to_upper, inout int to_lower) {
+    if (from_upper != SAND || is_open(from_lower) || !is_open(to_upper) || !is_open(to_lower)) return;
+    from_upper = to_lower;
+    to_lower = SAND;
+}
+
+// Two neighbours of one layer: supported ones level, one over a drop takes what it can hold.
+void level(inout int a, inout int b, bool a_supported, bool b_supported) {
+    if (!is_open(a) || !is_open(b)) return;
+    int total = a + b;
+    if (a_supported && b_supported) {
+        if (abs(a - b) <= 1 || (min(a, b) == 0 && total < 2 * film_threshold)) return;
+        a = total / 2;
+        b = total - a;
+    } else if (a_supported) {
+        b = min(total, FULL);
+        a = total - b;
+    } else if (b_supported) {
+        a = min(total, FULL);
+        b = total - a;
+    }
+}
+
+void main() {
+    ivec3 block = 2 * ivec3(gl_GlobalInvocationID) - offset_vox;
+    if (any(greaterThanEqual(block, size_vox))) return;
+
+    // The rule runs in a frame mirrored and transposed by hash, so that no direction is favoured: a and b are the
+    // block's horizontal axes. Cell k lies at corner + (k & 1) a + (k >> 1 & 1) b + (k >> 2) up.
+    uint h = hash3(tick_key, uint(block.x + 1) | uint(block.z + 1) << 16, uint(block.y + 1));
+    ivec2 mirror = ivec2(h & 1u, h >> 1 & 1u);
+    ivec3 corner = block + ivec3(mirror.x, 0, mirror.y);
+    ivec3 along_x = ivec3(1 - 2 * mirror.x, 0, 0);
+    ivec3 along_z = ivec3(0, 0, 1 - 2 * mirror.y);
+    bool transposed = (h & 4u) != 0u;
+    ivec3 a = transposed ? along_z : along_x;
+    ivec3 b = transposed ? along_x : along_z;
+
+    int before[8];
+    int c[8];
+    bool movable = false;
+    for (int k = 0; k < 8; ++k) {
+        ivec3 cell = corner + (k & 1) * a + (k >> 1 & 1) * b + ivec3(0, k >> 2, 0);
+        bool inside = all(lessThan(uvec3(cell), uvec3(size_vox)));
+        before[k] = inside ? content_of(imageLoad(cells, cell).r) : CLOSED;
+        c[k] = before[k];
+        movable = movable || (c[k] > 0 && c[k] < CLOSED);
+    }
+    if (!movable) return;
+
+    for (int k = 0; k < 4; ++k) fall(c[k + 4], c[k]);
+
+    slide(c[4], c[0], c[5], c[1]);
+    slide(c[5], c[1], c[4], c[0]);
+    slide(c[6], c[2], c[7], c[3]);
+    slide(c[7], c[3], c[6], c[2]);
+    slide(c[4], c[0], c[6], c[2]);
+    slide(c[6], c[2], c[4], c[0]);
+    slide(c[5], c[1], c[7], c[3]);
+    slide(c[7], c[3], c[5], c[1]);
+
+    // What the lower layer rests on is not seen here, but for the world's floor.
+    if (block.y == 0) {
+        level(c[0], c[1], true, true);
+        level(c[2], c[3], true, true);
+        level(c[0], c[2], true, true);
+        level(c[1], c[3], true, true);
+    }
+    bvec4 supported = bvec4(supports(c[0]), supports(c[1]), supports(c[2]), supports(c[3]));
+    level(c[4], c[5], supported.x, supported.y);
+    level(c[6], c[7], supported.z, supported.w);
+    level(c[4], c[6], supported.x, supported.z);
+    level(c[5], c[7], supported.y, supported.w);
+
+    for (int k = 0; k < 8; ++k) {
+        if (c[k] == before[k]) continue;
+        ivec3 cell = corner + (k & 1) * a + (k >> 1 & 1) * b + ivec3(0, k >> 2, 0);
+        imageStore(cells, cell, uvec4(c[k] == SAND ? MATERIAL_SAND : water_cell(uint(c[k]))));
+        imageStore(brick_changed, cell / BRICK_SIDE, uvec4(version));
+    }
+}

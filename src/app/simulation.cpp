@@ -1,0 +1,309 @@
+#include "app/simulation.h"
+
+#include <algorithm>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include "core/error.h"
+#include "passes/block_step.h"
+#include "passes/bricks.h"
+#include "passes/census.h"
+#include "passes/flow.h"
+#include "shared/bindings.h"
+
+namespace tarn {
+
+namespace {
+
+constexpr double census_interval_s = 0.25;
+constexpr int ticks_between_progress = 16;
+
+constexpr GLenum byte_layout = GL_RED_INTEGER;
+constexpr GLenum byte_type = GL_UNSIGNED_BYTE;
+
+glm::ivec3 size_within_limits(glm::ivec3 size_vox) {
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &most);
+    const int side = std::max({size_vox.x, size_vox.y, size_vox.z});
+    if (std::min({size_vox.x, size_vox.y, size_vox.z}) < 1)
+        fail("world of {}x{}x{} voxels: every side must be at least 1", size_vox.x, size_vox.y, size_vox.z);
+    if (side > most)
+        fail("world of {}x{}x{} voxels: this driver's 3D textures end at {} voxels a side", size_vox.x,
+             size_vox.y, size_vox.z, most);
+    return size_vox;
+}
+
+void add(Census& sum, std::uint8_t byte, std::uint64_t voxels) {
+    sum.voxels[material_of(byte)] += voxels;
+    sum.water_quanta += voxels * quanta_of(byte);
+}
+
+}  // namespace
+
+struct Simulation::Parts {
+    Parts(const Scene& scene, gl::Timers& frame_timers)
+        : timers(frame_timers),
+          size_vox(size_within_limits(scene.cells.size_vox())),
+          seed(scene.seed),
+          springs(scene.springs),
+          drains(scene.drains),
+          cells({.label = "cells", .format = GL_R8UI, .size = size_vox}),
+          brick_distance({.label = "brick distance", .format = GL_RG8UI, .size = bricks_of(size_vox)}),
+          brick_changed({.label = "brick changed", .format = GL_R32UI, .size = bricks_of(size_vox)}),
+          bricks(bricks_of(size_vox)),
+          census(take_census(scene.cells)) {}
+
+    std::uint32_t stamp() const { return static_cast<std::uint32_t>(version); }
+    bool flows() const { return !springs.empty() || !drains.empty(); }
+    void update_bricks() {
+        bricks.record({.cells = cells, .brick_changed = brick_changed, .version = stamp()},
+                      {.brick_distance = brick_distance}, timers);
+    }
+    void load(const Cells& from);
+    void stamp_bricks(const Box& bounds, const std::vector<std::uint8_t>& before,
+                      const std::vector<std::uint8_t>& after);
+    void write_region(const Box& region, const std::vector<std::uint8_t>& before,
+                      const std::vector<std::uint8_t>& after);
+    std::vector<std::uint8_t> read_region(const Box& region) const;
+    void tick_once(WaterTier tier, int film_threshold);
+
+    gl::Timers& timers;
+    glm::ivec3 size_vox;
+    std::uint32_t seed;
+    std::vector<Spring> springs;
+    std::vector<Drain> drains;
+
+    gl::Texture cells, brick_distance, brick_changed;
+    BlockStepPass block_step;
+    FlowPass flow;
+    BricksPass bricks;
+    CensusPass census_pass;
+
+    std::uint64_t tick = 0;
+    std::uint64_t version = 0;
+    EditTotals edit_totals;
+    Census census;
+    std::uint64_t census_version = 0;  // of `census`, or of the count under way
+    double census_time_s = -1e300;
+};
+
+void Simulation::Parts::load(const Cells& from) {
+    ++version;
+    cells.upload(std::span<const std::uint8_t>(from.bytes()), byte_layout, byte_type);
+    const std::uint32_t all = stamp();
+    glClearTexImage(brick_changed.name(), 0, GL_RED_INTEGER, GL_UNSIGNED_INT, &all);
+    update_bricks();
+}
+
+std::vector<std::uint8_t> Simulation::Parts::read_region(const Box& region) const {
+    std::vector<std::uint8_t> bytes(region.volume());
+    cells.download(region.min_vox, region.size(), std::span<std::uint8_t>(bytes), byte_layout, byte_type);
+    return bytes;
+}
+
+void Simulation::Parts::stamp_bricks(const Box& bounds, const std::vector<std::uint8_t>& before,
+                                     const std::vector<std::uint8_t>& after) {
+    const glm::ivec3 first = bounds.min_vox / BRICK_SIDE;
+    const glm::ivec3 size = (bounds.max_vox - 1) / BRICK_SIDE - first + 1;
+    std::vector<std::uint32_t> stamps(std::size_t{1} * size.x * size.y * size.z);
+    brick_changed.download(first, size, std::span<std::uint32_t>(stamps), GL_RED_INTEGER, GL_UNSIGNED_INT);
+    std::size_t i = 0;
+    for (int z = bounds.min_vox.z; z < bounds.max_vox.z; ++z)
+        for (int y = bounds.min_vox.y; y < bounds.max_vox.y; ++y)
+            for (int x = bounds.min_vox.x; x < bounds.max_vox.x; ++x, ++i) {
+                if (before[i] == after[i]) continue;
+                const glm::ivec3 brick = glm::ivec3(x, y, z) / BRICK_SIDE - first;
+                stamps[brick.x + std::size_t{1} * size.x * (brick.y + std::size_t{1} * size.y * brick.z)] =
+                    stamp();
+            }
+    brick_changed.upload(first, size, std::span<const std::uint32_t>(stamps), GL_RED_INTEGER,
+                         GL_UNSIGNED_INT);
+}
+
+void Simulation::Parts::write_region(const Box& region, const std::vector<std::uint8_t>& before,
+                                     const std::vector<std::uint8_t>& after) {
+    cells.upload(region.min_vox, region.size(), std::span<const std::uint8_t>(after), byte_layout, byte_type);
+    stamp_bricks(region, before, after);
+}
+
+void Simulation::Parts::tick_once(WaterTier tier, int film_threshold) {
+    const auto tick32 = static_cast<std::uint32_t>(tick);
+    const FlowPass::Inputs flow_in{.seed = seed, .tick = tick32, .version = stamp()};
+    const FlowPass::Outputs flow_out{.cells = cells, .brick_changed = brick_changed};
+    if (!springs.empty()) {
+        const auto scope = timers.scope("flow");
+        flow.record_springs(springs, flow_in, flow_out);
+    }
+    {
+        std::optional<gl::Timers::Scope> scope;
+        if (flows()) scope.emplace(timers, "step");
+        switch (tier) {
+            case WaterTier::Block:
+                block_step.record(
+                    {.seed = seed, .tick = tick32, .film_threshold = film_threshold, .version = stamp()},
+                    {.cells = cells, .brick_changed = brick_changed});
+                break;
+        }
+    }
+    if (!drains.empty()) {
+        const auto scope = timers.scope("flow");
+        flow.record_drains(drains, flow_in, flow_out);
+    }
+    ++tick;
+}
+
+Simulation::Simulation(const Scene& scene, gl::Timers& timers)
+    : parts_(std::make_unique<Parts>(scene, timers)) {
+    parts_->load(scene.cells);
+    parts_->census_version = parts_->version;
+}
+
+Simulation::~Simulation() = default;
+
+void Simulation::step(int n, const Settings& settings, const std::function<void(int)>& progress) {
+    if (n <= 0) return;
+    Parts& p = *parts_;
+    ++p.version;
+    for (int done = 0; done < n;) {
+        const int end = std::min(n, done + ticks_between_progress);
+        // Nothing between the ticks: one pair of time stamps for many.
+        std::optional<gl::Timers::Scope> scope;
+        if (!p.flows()) scope.emplace(p.timers, "step");
+        for (; done < end; ++done) p.tick_once(settings.water_tier, settings.film_threshold);
+        if (!progress) continue;
+        glFinish();
+        progress(done);
+    }
+    p.update_bricks();
+}
+
+void Simulation::apply(const Edit& edit, EditHistory& history) {
+    Parts& p = *parts_;
+    const Box bounds = bounds_of(edit, p.size_vox);
+    if (bounds.volume() == 0) return;
+    const std::vector<std::uint8_t> before = p.read_region(bounds);
+    std::vector<std::uint8_t> after = before;
+    if (!apply_edit(edit, bounds, after, p.edit_totals)) return;
+    ++p.version;
+    p.write_region(bounds, before, after);
+    p.update_bricks();
+    history.record(edit, bounds, before, after);
+}
+
+void Simulation::write(const std::vector<CellChange>& changes) {
+    if (changes.empty()) return;
+    Parts& p = *parts_;
+    ++p.version;
+    // Brick by brick, for a stroke may cross the whole world; the order within a brick is kept.
+    std::vector<std::pair<glm::ivec3, const CellChange*>> sorted;
+    sorted.reserve(changes.size());
+    for (const CellChange& change : changes) {
+        CHECK(glm::all(glm::greaterThanEqual(change.cell, glm::ivec3(0))) &&
+              glm::all(glm::lessThan(change.cell, p.size_vox)));
+        sorted.emplace_back(change.cell / BRICK_SIDE, &change);
+    }
+    std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) {
+        return std::tie(a.first.z, a.first.y, a.first.x) < std::tie(b.first.z, b.first.y, b.first.x);
+    });
+    for (std::size_t i = 0; i < sorted.size();) {
+        const glm::ivec3 brick = sorted[i].first;
+        const Box region{brick * BRICK_SIDE, glm::min((brick + 1) * BRICK_SIDE, p.size_vox)};
+        const std::vector<std::uint8_t> before = p.read_region(region);
+        std::vector<std::uint8_t> after = before;
+        for (; i < sorted.size() && sorted[i].first == brick; ++i) {
+            const glm::ivec3 at = sorted[i].second->cell - region.min_vox;
+            after[at.x + region.size().x * (at.y + region.size().y * at.z)] = sorted[i].second->after;
+        }
+        for (std::size_t k = 0; k < after.size(); ++k) {
+            if (before[k] == after[k]) continue;
+            add(p.edit_totals.removed, before[k], 1);
+            add(p.edit_totals.placed, after[k], 1);
+        }
+        if (after != before) p.write_region(region, before, after);
+    }
+    p.update_bricks();
+}
+
+void Simulation::write_cells(const Cells& cells) {
+    Parts& p = *parts_;
+    CHECK(cells.size_vox() == p.size_vox);
+    const Census before = take_census(read_cells());
+    p.load(cells);
+    p.census = take_census(cells);
+    p.census_version = p.version;
+    for (std::size_t id = 0; id < before.voxels.size(); ++id) {
+        p.edit_totals.removed.voxels[id] += before.voxels[id];
+        p.edit_totals.placed.voxels[id] += p.census.voxels[id];
+    }
+    p.edit_totals.removed.water_quanta += before.water_quanta;
+    p.edit_totals.placed.water_quanta += p.census.water_quanta;
+}
+
+std::uint8_t Simulation::read_cell(glm::ivec3 cell) const {
+    CHECK(glm::all(glm::greaterThanEqual(cell, glm::ivec3(0))) && glm::all(glm::lessThan(cell, size_vox())));
+    return parts_->read_region({cell, cell + 1})[0];
+}
+
+Cells Simulation::read_cells() const {
+    Cells cells(size_vox());
+    parts_->cells.download(std::span<std::uint8_t>(cells.bytes()), byte_layout, byte_type);
+    return cells;
+}
+
+FlowTotals Simulation::flow_totals() const {
+    const FlowPass::Counts counts = parts_->flow.counts();
+    return {counts.sprung_water_quanta, counts.drained_water_quanta, counts.sprung_sand_voxels,
+            counts.drained_sand_voxels};
+}
+
+const EditTotals& Simulation::edit_totals() const {
+    return parts_->edit_totals;
+}
+
+const Census& Simulation::recent_census() const {
+    return parts_->census;
+}
+
+void Simulation::refresh_census(double now_s) {
+    Parts& p = *parts_;
+    if (const auto arrived = p.census_pass.take()) p.census = *arrived;
+    if (p.census_pass.pending() || p.census_version == p.version) return;
+    if (now_s >= p.census_time_s && now_s - p.census_time_s < census_interval_s) return;
+    p.census_pass.record(p.cells, p.timers);
+    p.census_version = p.version;
+    p.census_time_s = now_s;
+}
+
+glm::ivec3 Simulation::size_vox() const {
+    return parts_->size_vox;
+}
+std::uint64_t Simulation::tick() const {
+    return parts_->tick;
+}
+void Simulation::set_tick(std::uint64_t tick) {
+    parts_->tick = tick;
+}
+std::uint64_t Simulation::version() const {
+    return parts_->version;
+}
+const gl::Texture& Simulation::cells() const {
+    return parts_->cells;
+}
+const gl::Texture& Simulation::brick_distance() const {
+    return parts_->brick_distance;
+}
+const gl::Texture& Simulation::brick_changed() const {
+    return parts_->brick_changed;
+}
+
+std::vector<std::string> Simulation::poll_reload() {
+    std::vector<std::string> messages;
+    if (auto message = parts_->block_step.poll_reload()) messages.push_back(*message);
+    parts_->flow.poll_reload(messages);
+    parts_->bricks.poll_reload(messages);
+    if (auto message = parts_->census_pass.poll_reload()) messages.push_back(*message);
+    return messages;
+}
+
+}  // namespace tarn

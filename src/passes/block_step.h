@@ -1,0 +1,33 @@
+// The `block` tier of the water on the GPU: one tick, in place (glsl/pass/block_step.comp). Owns its program.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "gl/program.h"
+#include "gl/texture.h"
+
+namespace tarn {
+
+class BlockStepPass {
+  public:
+    struct Inputs {
+        std::uint32_t seed, tick;
+        int film_threshold;     // quanta
+        std::uint32_t version;  // stamped on bricks whose cells change
+    };
+    struct Outputs {
+        gl::Texture& cells;          // R8UI
+        gl::Texture& brick_changed;  // R32UI
+    };
+
+    BlockStepPass();
+    // Cells are coherent for later image access and texture fetches.
+    void record(const Inputs& in, const Outputs& out) const;
+    std::optional<std::string> poll_reload() { return program_.poll_reload(); }
+
+  private:
+    gl::Program program_;
+};
+
+}  // namespace tarn
