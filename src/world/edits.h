@@ -26,28 +26,37 @@ struct Edit {
 // Cells that `edit` may touch, clipped to a world of `size_vox`; empty (volume 0) where it misses it.
 Box bounds_of(const Edit& edit, glm::ivec3 size_vox);
 
-// Voxels and quanta that edits added and took, by material id.
+// Voxels and quanta that edits added and took, by material id, air too: for each, before + placed - removed =
+// after. A cell that is written over counts as removed and placed, also water over less water.
 struct EditTotals {
     Census placed, removed;
+    bool operator==(const EditTotals&) const = default;
 };
+
+// Adds the change of one cell's byte to `totals`; nothing where both are equal.
+void count_change(std::uint8_t before, std::uint8_t after, EditTotals& totals);
 
 // Applies `edit` to `region`, the bytes of bounds_of(edit), x fastest; adds to `totals`. Returns whether any
 // changed.
 bool apply_edit(const Edit& edit, const Box& bounds, std::vector<std::uint8_t>& region, EditTotals& totals);
 
-// Cells before and after one stroke, for undo. A stroke is all edits between pressing and releasing a button.
+// A cell before and after an edit, for undo. A stroke is all edits between pressing and releasing a button.
 struct CellChange {
     glm::ivec3 cell;
     std::uint8_t before, after;
+    bool operator==(const CellChange&) const = default;
 };
 
 class EditHistory {
   public:
     // Opens a new stroke; edits recorded until the next one belong to it. Clears what could be redone.
     void begin_stroke();
+    // Adds `edit` to the log and what it changed to the open stroke; `before` and `after` are the bytes of
+    // `bounds`, x fastest.
     void record(const Edit& edit, const Box& bounds, const std::vector<std::uint8_t>& before,
                 const std::vector<std::uint8_t>& after);
-    // Changes to write (last first for undo), or nothing. The oldest strokes go once 64 MiB are kept.
+    // Changes to write (last first for undo), or nothing. The oldest strokes go once 64 MiB are kept; a
+    // stroke that alone exceeds them cannot be undone. Strokes that changed nothing are not kept.
     std::optional<std::vector<CellChange>> undo();  // before/after swapped: `after` is the byte to write
     std::optional<std::vector<CellChange>> redo();
     bool can_undo() const { return !undo_.empty(); }
@@ -56,9 +65,14 @@ class EditHistory {
     void clear();
 
   private:
-    std::vector<std::vector<CellChange>> undo_, redo_;
+    using Stroke = std::vector<CellChange>;
+    void clear_redo();
+    void drop_beyond_cap();
+
+    std::vector<Stroke> undo_, redo_;
     std::vector<Edit> log_;
     std::size_t kept_changes_ = 0;
+    enum class Open { None, Empty, Newest, TooLong } open_ = Open::None;  // Newest: it is undo_.back()
 };
 
 }  // namespace tarn
