@@ -1,0 +1,167 @@
+#include "app/panels.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "app/setting_row.h"
+
+namespace tarn {
+
+namespace {
+
+struct HelpLine {
+    const char* keys;  // null: a heading
+    const char* text;
+};
+
+constexpr HelpLine help_lines[] = {
+    {nullptr, "Fly"},
+    {"W A S D, arrows", "forward, left, back, right"},
+    {"Space, Ctrl", "up, down"},
+    {"Shift", "four times as fast"},
+    {"Tab or M", "look with the mouse, on and off; the brush then aims at the cross"},
+    {"F or Alt", "look with the mouse while held"},
+    {nullptr, "Build"},
+    {"left button", "place; hold to pour water and sand, drag to draw in the plane where you began"},
+    {"right button", "remove; hold to dig on"},
+    {"middle button", "take the material of the voxel under the mouse"},
+    {"wheel", "size of the brush, 0 is one voxel"},
+    {"1 to 9", "stone, dirt, grass, sand, glass, metal, lamp, wall, water"},
+    {"B", "brush: sphere or cube"},
+    {"X", "overwrite: replace everything, or fill air and water only"},
+    {"Z, Ctrl+Z", "undo the last stroke"},
+    {"Y, Shift+Z, Ctrl+Y", "redo"},
+    {"",
+     "The brush of water meets the water's surface. Every other material goes through water, to build and "
+     "dig on the ground under it. Nothing happens further than 200 voxels away."},
+    {nullptr, "Time"},
+    {"P", "pause and go on"},
+    {"N or .", "pause, then one tick at a time"},
+    {"+ and -", "faster, slower"},
+    {"R", "the scene's voxels from the start"},
+    {nullptr, "Window"},
+    {"H or F1", "this help"},
+    {"O or F2", "settings"},
+    {"F3", "times and counts in the corner"},
+    {"F12", "picture: tarn-0001.png and its settings as .json, in the current folder"},
+    {"Esc", "give the mouse back; close the panels"},
+    {"Ctrl+Q", "quit"},
+};
+
+void draw_help(bool& open) {
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const float font = ImGui::GetFontSize();
+    ImGui::SetNextWindowPos({display.x * 0.02f, display.y * 0.05f}, ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSize({std::min(font * 36, display.x * 0.9f), std::min(font * 38, display.y * 0.9f)},
+                             ImGuiCond_FirstUseEver);
+    if (ImGui::Begin("Help", &open)) {
+        ImGui::PushTextWrapPos(0);
+        for (const HelpLine& line : help_lines) {
+            if (line.keys == nullptr) {
+                ImGui::Separator();
+                ImGui::TextColored({1, 0.8f, 0.4f, 1}, "%s", line.text);
+                continue;
+            }
+            if (*line.keys != '\0') {
+                ImGui::TextUnformatted(line.keys);
+                ImGui::SameLine(font * 11);
+            }
+            ImGui::TextWrapped("%s", line.text);
+        }
+        ImGui::PopTextWrapPos();
+    }
+    ImGui::End();
+}
+
+void draw_time(const Panels::Inputs& inputs, Actions& actions) {
+    actions.toggle_pause |= button(inputs.paused ? "Go on" : "Pause", "Stop or go on with the ticks (P).");
+    ImGui::SameLine();
+    actions.step |= button("Step", "Pause, then one tick (N).");
+    ImGui::SameLine();
+    actions.slower |= button("Slower", "Half the ticks per second (-).");
+    ImGui::SameLine();
+    actions.faster |= button("Faster", "Twice the ticks per second (+).");
+    ImGui::SameLine();
+    actions.reload |= button("Reload", "The scene's voxels from the start; settings and camera stay (R).");
+}
+
+void draw_brush(const Panels::Inputs& inputs, Actions& actions) {
+    Brush& brush = inputs.brush;
+    const float width = ImGui::GetFontSize() * 13;
+    ImGui::SetNextItemWidth(width);
+    if (ImGui::BeginCombo("material", material_name(brush.material).data())) {
+        for (const std::uint8_t id : palette) {
+            if (ImGui::Selectable(material_name(id).data(), id == brush.material)) brush.material = id;
+        }
+        ImGui::EndCombo();
+    }
+    tooltip("What the left button places (keys 1 to 9, or middle click on a voxel).");
+    constexpr const char* shapes[] = {"sphere", "cube"};
+    int shape = static_cast<int>(brush.shape);
+    ImGui::SetNextItemWidth(width);
+    if (ImGui::Combo("shape", &shape, shapes, 2)) brush.shape = static_cast<BrushShape>(shape);
+    tooltip("Shape of the brush (B).");
+    ImGui::SetNextItemWidth(width);
+    ImGui::SliderInt("radius", &brush.radius_vox, 0, brush_radius_max_vox, "%d voxels",
+                     ImGuiSliderFlags_AlwaysClamp);
+    tooltip("Radius of the brush in voxels, 0 to 32; 0 is one voxel (wheel).");
+    ImGui::Checkbox("overwrite", &brush.overwrite);
+    tooltip("On: placing replaces everything. Off: it fills air and water only (X).");
+    ImGui::SameLine();
+    actions.undo |= button("Undo", "Take back the last stroke (Z).", inputs.can_undo);
+    ImGui::SameLine();
+    actions.redo |= button("Redo", "Repeat the stroke taken back (Y).", inputs.can_redo);
+}
+
+void draw_world(const Panels::Inputs& inputs, Actions& actions) {
+    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 13);
+    if (ImGui::BeginCombo("scene", inputs.scene.c_str())) {
+        for (const SceneSummary& scene : inputs.scenes) {
+            if (ImGui::Selectable(scene.name.c_str(), scene.name == inputs.scene))
+                actions.load_scene = scene.name;
+            tooltip(scene.description);
+        }
+        ImGui::EndCombo();
+    }
+    tooltip("Loads a built-in scene with its camera, water, sun and sky; what was built here is lost.");
+    ImGui::SameLine();
+    actions.screenshot |= button("Picture", "Write tarn-0001.png and its settings beside it (F12).");
+}
+
+}  // namespace
+
+void Panels::draw(const Inputs& inputs, Actions& actions) {
+    if (help_open) draw_help(help_open);
+    if (settings_open) draw_settings(inputs, actions);
+}
+
+void Panels::draw_settings(const Inputs& inputs, Actions& actions) {
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const float font = ImGui::GetFontSize();
+    ImGui::SetNextWindowPos({display.x * 0.98f, display.y * 0.05f}, ImGuiCond_FirstUseEver, {1, 0});
+    ImGui::SetNextWindowSize({std::min(font * 30, display.x * 0.8f), std::min(font * 45, display.y * 0.9f)},
+                             ImGuiCond_FirstUseEver);
+    if (ImGui::Begin("Settings", &settings_open)) {
+        draw_time(inputs, actions);
+        ImGui::Separator();
+        draw_brush(inputs, actions);
+        ImGui::Separator();
+        draw_world(inputs, actions);
+        if (button("Reset all", "Every setting below as the scene and the program give it, the camera too."))
+            inputs.settings = inputs.defaults;
+        const std::span<const SettingInfo> infos = setting_infos();
+        for (auto info = infos.begin(); info != infos.end();) {
+            const SettingGroup group = info->group;
+            const bool open = ImGui::CollapsingHeader(group_name(group));
+            tooltip(fmt::format("Show or hide the settings of {}.", group_name(group)));
+            for (; info != infos.end() && info->group == group; ++info) {
+                if (open) setting_row(*info, inputs.settings, inputs.defaults);
+            }
+        }
+    }
+    ImGui::End();
+}
+
+}  // namespace tarn

@@ -1,0 +1,139 @@
+#include "app/setting_row.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+namespace tarn {
+
+namespace {
+
+// Ranges this wide get a logarithmic slider.
+bool is_wide(const SettingInfo& info) {
+    if (info.min < 0) return false;
+    return info.min > 0 ? info.max / info.min >= 200 : info.max >= 50;
+}
+
+bool is_quality(const SettingInfo& info) {
+    return std::string_view(info.name) == "quality";
+}
+
+void assign(const SettingInfo& info, Settings& settings, glm::dvec3 value) {
+    for (int c = 0; c < 3; ++c) {
+        if (!std::isfinite(value[c])) return;
+    }
+    value = glm::clamp(value, glm::dvec3(info.min), glm::dvec3(info.max));
+    if (is_quality(info))
+        apply_quality(settings, static_cast<Quality>(static_cast<int>(value.x)));
+    else
+        info.set(settings, value);
+}
+
+bool draw_number(const SettingInfo& info, const char* label, glm::dvec3& value) {
+    const ImGuiSliderFlags flags =
+        ImGuiSliderFlags_AlwaysClamp | (is_wide(info) ? ImGuiSliderFlags_Logarithmic : 0);
+    bool changed = false;
+    if (info.kind == SettingKind::Int) {
+        int number = static_cast<int>(value.x);
+        changed = ImGui::SliderInt(label, &number, static_cast<int>(info.min), static_cast<int>(info.max),
+                                   "%d", flags);
+        value = glm::dvec3(number);
+    } else {
+        auto number = static_cast<float>(value.x);
+        changed = ImGui::SliderFloat(label, &number, static_cast<float>(info.min),
+                                     static_cast<float>(info.max), "%.3f", flags);
+        value = glm::dvec3(number);
+    }
+    return changed;
+}
+
+bool draw_triple(const SettingInfo& info, const char* label, glm::dvec3& value) {
+    glm::vec3 triple(value);
+    bool changed = false;
+    if (info.kind == SettingKind::Color) {
+        const ImGuiColorEditFlags flags =
+            ImGuiColorEditFlags_Float | (info.max > 1 ? ImGuiColorEditFlags_HDR : 0);
+        changed = ImGui::ColorEdit3(label, &triple.x, flags);
+    } else {
+        changed = ImGui::DragFloat3(label, &triple.x, 0.25f, static_cast<float>(info.min),
+                                    static_cast<float>(info.max), "%.2f", ImGuiSliderFlags_AlwaysClamp);
+    }
+    value = triple;
+    return changed;
+}
+
+bool draw_widget(const SettingInfo& info, const char* label, glm::dvec3& value) {
+    switch (info.kind) {
+        case SettingKind::Int:
+        case SettingKind::Real:
+            return draw_number(info, label, value);
+        case SettingKind::Bool: {
+            bool on = value.x != 0;
+            const bool changed = ImGui::Checkbox(label, &on);
+            value = glm::dvec3(on ? 1 : 0);
+            return changed;
+        }
+        case SettingKind::Choice: {
+            int index = static_cast<int>(value.x);
+            const bool changed =
+                ImGui::Combo(label, &index, info.choices.data(), static_cast<int>(info.choices.size()));
+            value = glm::dvec3(index);
+            return changed;
+        }
+        case SettingKind::Vec3:
+        case SettingKind::Color:
+            return draw_triple(info, label, value);
+    }
+    return false;
+}
+
+}  // namespace
+
+void tooltip(const std::string& text) {
+    if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
+bool button(const char* label, const char* help, bool enabled) {
+    ImGui::BeginDisabled(!enabled);
+    const bool pressed = ImGui::Button(label);
+    ImGui::EndDisabled();
+    tooltip(help);
+    return pressed;
+}
+
+void setting_row(const SettingInfo& info, Settings& settings, const Settings& defaults) {
+    ImGui::PushID(info.name);
+    const bool is_default = info.get(settings) == info.get(defaults);
+    ImGui::BeginDisabled(is_default);
+    if (ImGui::SmallButton("r")) assign(info, settings, info.get(defaults));
+    ImGui::EndDisabled();
+    tooltip(fmt::format("Reset {} to {}.", info.name, setting_text(defaults, info)));
+    ImGui::SameLine();
+
+    std::string label = info.name;
+    std::replace(label.begin(), label.end(), '_', ' ');
+    glm::dvec3 value = info.get(settings);
+    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 13);
+    const bool changed = draw_widget(info, label.c_str(), value);
+    std::string help = fmt::format("{}\n\n{}: {}; default {}.", info.help, info.name, allowed_values(info),
+                                   setting_text(defaults, info));
+    if (is_quality(info)) {
+        Settings preset = settings;
+        apply_quality(preset, settings.quality);
+        if (preset != settings)
+            help += "\nSome of its settings were changed since; choose it again to restore them.";
+    }
+    tooltip(help);
+    if (changed) assign(info, settings, value);
+    ImGui::PopID();
+}
+
+}  // namespace tarn
