@@ -67,7 +67,7 @@ RayHit trace_ray(RayStart start, vec3 dir, float t_max_vox) {
     // (plane + NEVER) * 1 = NEVER on an axis without motion.
     precise vec3 origin = mix(start.origin_vox, vec3(-TRAVERSAL_NEVER), still);
     precise vec3 inv_dir = 1.0 / mix(dir, vec3(1.0), still);
-    bvec3 forward = greaterThan(dir, vec3(0.0));
+    bvec3 forward = greaterThanEqual(dir, vec3(TRAVERSAL_STILL));
     ivec3 stride = mix(ivec3(-1), ivec3(1), forward);
 
     ivec3 cell = start.cell;
@@ -79,8 +79,9 @@ RayHit trace_ray(RayStart start, vec3 dir, float t_max_vox) {
     int clear_bricks = 0;
     int bound = size.x + size.y + size.z + 4;
 
-    RayHit hit = RayHit(HIT_NONE, t_max_vox, cell, cell, 0, MATERIAL_AIR, 0u, bound);
+    RayHit hit = RayHit(HIT_NONE, t_max_vox, cell, cell, 0, MATERIAL_AIR, 0u, 0);
     for (int i = 1; i <= bound; ++i) {
+        hit.steps = i;
         ivec3 low = cell;
         ivec3 high = cell + 1;
 #ifdef TRAVERSAL_SKIP
@@ -155,8 +156,8 @@ RayHit trace_ray(RayStart start, vec3 dir, float t_max_vox) {
 bool enter_world(vec3 origin, vec3 dir, out RayStart start, out float t_entry) {
     vec3 size = vec3(frame.world_size_vox.xyz);
     bvec3 still = lessThan(abs(dir), vec3(TRAVERSAL_STILL));
-    bvec3 forward = greaterThan(dir, vec3(0.0));
-    bvec3 back = lessThan(dir, vec3(0.0));
+    bvec3 forward = greaterThanEqual(dir, vec3(TRAVERSAL_STILL));
+    bvec3 back = lessThanEqual(dir, vec3(-TRAVERSAL_STILL));
     start = RayStart(origin, ivec3(0), MATERIAL_AIR);
     t_entry = 0.0;
     precise float t_near = -TRAVERSAL_NEVER;

@@ -23,9 +23,10 @@ class Buffer {
     void bind_uniform(GLuint index) const { glBindBufferBase(GL_UNIFORM_BUFFER, index, name_); }
     void bind_storage(GLuint index) const { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, index, name_); }
 
-    template <typename T>
-    void upload(std::span<const T> data, std::size_t offset_bytes = 0) {
-        upload_bytes(std::as_bytes(data), offset_bytes);
+    // `data`: a span, array or vector.
+    template <typename Range>
+    void upload(const Range& data, std::size_t offset_bytes = 0) {
+        upload_bytes(std::as_bytes(std::span(data)), offset_bytes);
     }
     // Waits for the GPU.
     template <typename T>

@@ -1,0 +1,39 @@
+// The GGX microfacet distribution with Smith's height-correlated shadowing (Walter et al. 2007, Heitz 2014), in the
+// local frame whose z is the normal. alpha = roughness^2.
+#include "lib/math.glsl"
+
+// Below this alpha a surface is a perfect mirror or interface.
+const float ALPHA_SMOOTH = 1e-3;
+
+float ggx_d(vec3 h, float alpha) {
+    if (h.z <= 0.0) return 0.0;
+    float a2 = alpha * alpha;
+    // sin^2 from the components: 1 - z^2 cancels for the narrow lobes of small alpha.
+    float s = dot(h.xy, h.xy) + a2 * h.z * h.z;
+    return a2 / (PI * s * s);
+}
+
+float ggx_lambda(vec3 w, float alpha) {
+    float z2 = w.z * w.z;
+    if (z2 == 0.0) return 1e18;
+    return 0.5 * (sqrt(1.0 + alpha * alpha * dot(w.xy, w.xy) / z2) - 1.0);
+}
+
+float ggx_g1(vec3 w, float alpha) { return 1.0 / (1.0 + ggx_lambda(w, alpha)); }
+
+float ggx_g2(vec3 wo, vec3 wi, float alpha) { return 1.0 / (1.0 + ggx_lambda(wo, alpha) + ggx_lambda(wi, alpha)); }
+
+// A normal visible from wo (wo.z > 0), by spherical caps (Dupuy & Benyoub 2023). u in [0,1)^2.
+vec3 ggx_sample_visible_normal(vec3 wo, float alpha, vec2 u) {
+    vec3 w = normalize(vec3(wo.xy * alpha, wo.z));
+    float phi = 2.0 * PI * u.x;
+    float z = (1.0 - u.y) * (1.0 + w.z) - w.z;
+    float r = sqrt(clamp(1.0 - z * z, 0.0, 1.0));
+    vec3 h = vec3(r * cos(phi), r * sin(phi), z) + w;
+    return normalize(vec3(h.xy * alpha, max(h.z, 1e-12)));
+}
+
+// Density of that normal per solid angle.
+float ggx_visible_normal_pdf(vec3 wo, vec3 h, float alpha) {
+    return ggx_g1(wo, alpha) * max(0.0, dot(wo, h)) * ggx_d(h, alpha) / max(wo.z, 1e-12);
+}

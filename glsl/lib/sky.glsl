@@ -1,0 +1,24 @@
+// Light from beyond the world: one function for every miss.
+#include "shared/frame.h"
+#include "lib/math.glsl"
+
+vec3 sky_radiance(vec3 dir) { return mix(frame.sky_horizon.rgb, frame.sky_zenith.rgb, max(0.0, dir.y)); }
+
+bool in_sun_disc(vec3 dir) { return frame.sun_irradiance.w > 0.0 && dot(dir, frame.sun_dir.xyz) >= frame.sun_dir.w; }
+
+bool sun_exists() { return frame.sun_radiance.w > 0.0; }
+
+// A direction to the sun, uniform over its disc; u in [0,1)^2.
+vec3 sample_sun(vec2 u) {
+    if (frame.sun_irradiance.w <= 0.0) return frame.sun_dir.xyz;
+    float z = 1.0 - u.x * (1.0 - frame.sun_dir.w);
+    // 1 - z^2 without cancellation for a small disc.
+    float r = sqrt(max(0.0, u.x * (1.0 - frame.sun_dir.w) * (1.0 + z)));
+    float phi = 2.0 * PI * u.y;
+    return normalize(basis_around(frame.sun_dir.xyz) * vec3(r * cos(phi), r * sin(phi), z));
+}
+
+// Radiance over density of a sample_sun direction; for a point sun the irradiance.
+vec3 sun_sample_weight() {
+    return frame.sun_irradiance.w > 0.0 ? frame.sun_radiance.rgb * frame.sun_irradiance.w : frame.sun_irradiance.rgb;
+}

@@ -1,0 +1,34 @@
+// Exact mode: adds a frame to a sum over all frames, with the rounding error carried along (Kahan-Babuska-Neumaier):
+// a plain float32 running mean drifts by 1 % in a million frames.
+#include "shared/frame.h"
+#include "lib/math.glsl"
+
+layout(binding = 0) uniform sampler2D radiance;
+layout(binding = 1) uniform sampler2D previous_sum;         // rgb; a: frames
+layout(binding = 2) uniform sampler2D previous_correction;  // rgb
+
+layout(location = 0) out vec4 out_sum;
+layout(location = 1) out vec4 out_correction;
+layout(location = 2) out vec4 out_mean;
+
+layout(std430, binding = 0) buffer RejectedBlock { uint rejected_samples; };
+
+void main() {
+    ivec2 at = ivec2(gl_FragCoord.xy);
+    vec3 value = texelFetch(radiance, at, 0).rgb;
+    bool first = frame.counters.w == 0u;
+    vec4 sum = first ? vec4(0.0) : texelFetch(previous_sum, at, 0);
+    vec3 correction = first ? vec3(0.0) : texelFetch(previous_correction, at, 0).rgb;
+    if (!is_finite(sum.rgb) || !is_finite(correction)) {
+        atomicAdd(rejected_samples, 1u);
+        sum = vec4(0.0);
+        correction = vec3(0.0);
+    }
+    precise vec3 total = sum.rgb + value;
+    precise vec3 from_sum = (sum.rgb - total) + value;
+    precise vec3 from_value = (value - total) + sum.rgb;
+    correction += mix(from_value, from_sum, greaterThanEqual(abs(sum.rgb), abs(value)));
+    out_sum = vec4(total, sum.a + 1.0);
+    out_correction = vec4(correction, 0.0);
+    out_mean = vec4((total + correction) / out_sum.a, 1.0);
+}

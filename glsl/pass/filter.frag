@@ -1,0 +1,58 @@
+// One direction of a separable 5-tap blur. Gaussian: over everything. Otherwise within one surface, on light with
+// the surface's colour divided out, and less the more frames a pixel has.
+#include "shared/frame.h"
+#include "lib/surfaces.glsl"
+
+layout(binding = 4) uniform sampler2D radiance;  // rgb; a: frames kept
+layout(binding = 5) uniform sampler2D position;
+layout(binding = 6) uniform sampler2D normal;
+layout(binding = 7) uniform usampler2D material;
+
+uniform ivec2 step_px;  // distance and direction of neighbouring taps
+
+layout(location = 0) out vec4 out_radiance;
+
+const float KERNEL[3] = float[3](6.0 / 16.0, 4.0 / 16.0, 1.0 / 16.0);  // binomial
+
+void main() {
+    ivec2 at = ivec2(gl_FragCoord.xy);
+    ivec2 last = textureSize(radiance, 0) - 1;
+    vec4 center = texelFetch(radiance, at, 0);
+#ifdef FILTER_GAUSSIAN
+    vec3 sum = center.rgb * KERNEL[0];
+    for (int i = -2; i <= 2; ++i) {
+        if (i != 0) sum += texelFetch(radiance, clamp(at + i * step_px, ivec2(0), last), 0).rgb * KERNEL[abs(i)];
+    }
+    out_radiance = vec4(sum, center.a);
+#else
+    uint id = texelFetch(material, at, 0).r;
+    if (id == SURFACE_SKY_ID) {
+        out_radiance = center;
+        return;
+    }
+    vec4 here = texelFetch(position, at, 0);
+    vec3 n = texelFetch(normal, at, 0).xyz;
+    // Where frames have been averaged there is less noise to trade for sharpness.
+    float strength = min(1.0, 6.0 / center.a);
+    bool clear = transmits(id);
+    float center_luminance = luminance(center.rgb);
+    // Pixels of one plane: the tolerance covers what a pixel spans at a grazing view.
+    float plane_tolerance = 0.01 + 1e-5 * here.w;
+    vec3 sum = center.rgb * KERNEL[0];
+    float weight_sum = KERNEL[0];
+    for (int i = -2; i <= 2; ++i) {
+        ivec2 tap = at + i * step_px;
+        if (i == 0 || any(lessThan(tap, ivec2(0))) || any(greaterThan(tap, last))) continue;
+        if (texelFetch(material, tap, 0).r != id) continue;
+        if (any(greaterThan(abs(texelFetch(normal, tap, 0).xyz - n), vec3(0.01)))) continue;
+        if (abs(dot(texelFetch(position, tap, 0).xyz - here.xyz, n)) > plane_tolerance) continue;
+        vec3 value = texelFetch(radiance, tap, 0).rgb;
+        float w = KERNEL[abs(i)] * strength;
+        // Behind a clear surface lies a picture of its own: keep its edges by brightness.
+        if (clear) w *= exp(-abs(luminance(value) - center_luminance) / (0.1 + 0.25 * center_luminance));
+        sum += w * value;
+        weight_sum += w;
+    }
+    out_radiance = vec4(sum / weight_sum, center.a);
+#endif
+}

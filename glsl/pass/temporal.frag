@@ -1,0 +1,86 @@
+// Reverse reprojection: the history of what this pixel shows, from four tested taps of the previous frame, blended
+// with the new frame.
+#include "lib/camera.glsl"
+#include "lib/surfaces.glsl"
+
+layout(binding = BINDING_BRICK_CHANGED) uniform usampler3D brick_changed;
+layout(binding = 4) uniform sampler2D radiance;
+layout(binding = 5) uniform sampler2D position;
+layout(binding = 6) uniform sampler2D normal;
+layout(binding = 7) uniform usampler2D material;
+layout(binding = 8) uniform sampler2D previous_radiance;  // rgb; a: frames kept
+layout(binding = 9) uniform sampler2D previous_position;
+layout(binding = 10) uniform sampler2D previous_normal;
+layout(binding = 11) uniform usampler2D previous_material;
+
+uniform uint previous_version;  // of the world, when the previous frame was made
+
+layout(location = 0) out vec4 out_radiance;  // rgb; a: frames kept, this one included
+
+layout(std430, binding = 0) buffer RejectedBlock { uint rejected_samples; };
+
+// History kept where cells changed: short enough to follow, long enough not to flicker.
+const float FRAMES_KEPT_NEAR_CHANGE = 3.0;
+// Distance from the plane of the first hit (vox) within which two hits are on one surface, plus its growth with
+// distance from the eye (float32 rounding of positions).
+const float PLANE_TOLERANCE_VOX = 0.01;
+const float PLANE_TOLERANCE_PER_VOX = 1e-5;
+
+bool changed_since(vec3 at_vox) {
+    ivec3 cell = clamp(ivec3(floor(at_vox)), ivec3(0), frame.world_size_vox.xyz - 1);
+    uint stamp = texelFetch(brick_changed, cell / BRICK_SIDE, 0).r;
+    // Stamps wrap: compare by signed difference.
+    return int(stamp - previous_version) > 0;
+}
+
+void main() {
+    ivec2 at = ivec2(gl_FragCoord.xy);
+    vec3 value = texelFetch(radiance, at, 0).rgb;
+    vec4 here = texelFetch(position, at, 0);
+    vec3 n = texelFetch(normal, at, 0).xyz;
+    uint id = texelFetch(material, at, 0).r;
+
+    vec4 history = vec4(0.0);
+    float weight_sum = 0.0;
+    vec2 ndc;
+    if (frame.world_size_vox.w != 0 && previous_ndc(here.xyz, ndc) && all(lessThan(abs(ndc), vec2(1.0)))) {
+        vec2 size = vec2(textureSize(previous_radiance, 0));
+        vec2 texel = (ndc * 0.5 + 0.5) * size - 0.5;
+        // A still camera reprojects onto itself up to rounding; without this, history would creep and blur.
+        vec2 nearest = round(texel);
+        if (all(lessThan(abs(texel - nearest), vec2(0.01)))) texel = nearest;
+        ivec2 base = ivec2(floor(texel));
+        vec2 f = texel - vec2(base);
+        float tolerance = PLANE_TOLERANCE_VOX + PLANE_TOLERANCE_PER_VOX * here.w;
+        for (int k = 0; k < 4; ++k) {
+            ivec2 tap = base + ivec2(k & 1, k >> 1);
+            vec2 w2 = mix(1.0 - f, f, vec2(k & 1, k >> 1));
+            float w = w2.x * w2.y;
+            if (w <= 0.0 || any(lessThan(tap, ivec2(0))) || any(greaterThanEqual(tap, ivec2(size)))) continue;
+            if (texelFetch(previous_material, tap, 0).r != id) continue;
+            if (any(greaterThan(abs(texelFetch(previous_normal, tap, 0).xyz - n), vec3(0.01)))) continue;
+            vec4 there = texelFetch(previous_position, tap, 0);
+            if (id != SURFACE_SKY_ID && abs(dot(there.xyz - here.xyz, n)) > tolerance) continue;
+            vec4 kept = texelFetch(previous_radiance, tap, 0);
+            if (!is_finite(kept.rgb) || !is_finite(kept.a)) {
+                atomicAdd(rejected_samples, 1u);
+                continue;
+            }
+            history += w * kept;
+            weight_sum += w;
+        }
+    }
+    float count = 0.0;
+    if (weight_sum > 0.01) {
+        history /= weight_sum;
+        count = history.a;
+        if (id != SURFACE_SKY_ID && changed_since(here.xyz - 0.5 * n)) count = min(count, FRAMES_KEPT_NEAR_CHANGE);
+        count = min(count, frame.history.y - 1.0);
+    }
+#ifdef HISTORY_BLEND
+    float alpha = count > 0.0 ? frame.history.x : 1.0;
+#else
+    float alpha = 1.0 / (count + 1.0);
+#endif
+    out_radiance = vec4(count > 0.0 ? mix(history.rgb, value, alpha) : value, count + 1.0);
+}

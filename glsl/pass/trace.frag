@@ -1,0 +1,38 @@
+// Paths of one frame: mean radiance per pixel and the surface seen.
+#include "lib/path.glsl"
+#include "lib/camera.glsl"
+
+layout(location = 0) in vec3 ray_dir;
+
+layout(location = 0) out vec4 out_radiance;  // rgb; a: 1
+layout(location = 1) out vec4 out_position;  // xyz: first hit (vox); w: distance from the eye
+layout(location = 2) out vec4 out_normal;    // xyz; 0 for sky
+layout(location = 3) out uint out_material;  // id; 255 for sky
+
+layout(std430, binding = 0) buffer RejectedBlock { uint rejected_samples; };
+
+void main() {
+    uvec2 pixel = uvec2(gl_FragCoord.xy);
+    vec3 sum = vec3(0.0);
+    FirstSurface first;
+    uint count = frame.counters.z;
+    for (uint i = 0u; i < count; ++i) {
+        rng_seed(pixel, frame.counters.x, i, frame.counters.y);
+        vec3 dir = ray_dir;
+        if (option(OPTION_JITTER)) {
+            vec2 ndc = (2.0 * rng_vec2() - 1.0) / vec2(frame.size_px.xy);
+            dir += ndc.x * frame.camera_right.xyz + ndc.y * frame.camera_up.xyz;
+        }
+        FirstSurface surface;
+        vec3 radiance = trace_path(frame.camera_position_vox.xyz, normalize(dir), surface);
+        if (i == 0u) first = surface;
+        if (is_finite(radiance))
+            sum += radiance;
+        else
+            atomicAdd(rejected_samples, 1u);
+    }
+    out_radiance = vec4(sum / float(count), 1.0);
+    out_position = vec4(first.position_vox, first.distance_vox);
+    out_normal = vec4(first.normal, 0.0);
+    out_material = first.material;
+}

@@ -1,0 +1,81 @@
+#include "app/frame_block.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "app/camera.h"
+
+namespace tarn {
+
+namespace {
+
+// As in glsl/lib/path.glsl.
+constexpr int option_sun_through_water = 1;
+constexpr int option_caustics = 2;
+constexpr int option_uniform_diffuse = 4;
+constexpr int option_jitter = 8;
+
+void set_sun(FrameBlock& block, const Settings& s) {
+    const glm::dvec3 irradiance(s.sun_irradiance);
+    const double radius = glm::radians(static_cast<double>(s.sun_angular_radius_deg));
+    const bool exists = std::max({irradiance.x, irradiance.y, irradiance.z}) > 0;
+    block.sun_dir = glm::vec4(camera_basis(s.sun_azimuth_deg, s.sun_elevation_deg).dir, std::cos(radius));
+    // 1 - cos r = 2 sin^2(r / 2): no cancellation for small discs.
+    const double solid_angle = 4 * std::numbers::pi * std::pow(std::sin(radius / 2), 2);
+    const double projected = std::numbers::pi * std::pow(std::sin(radius), 2);
+    const bool disc = exists && radius > 0 && projected > 0;
+    block.sun_irradiance = glm::vec4(s.sun_irradiance, disc ? solid_angle : 0.0);
+    block.sun_radiance =
+        glm::vec4(disc ? glm::vec3(irradiance / projected) : glm::vec3(0), exists ? 1.0f : 0.0f);
+}
+
+}  // namespace
+
+FrameBlock make_frame_block(const FrameInputs& in) {
+    const Settings& s = in.settings;
+    FrameBlock block;
+    const CameraBasis basis = camera_basis(s.camera_yaw_deg, s.camera_pitch_deg);
+    const float half = std::tan(glm::radians(s.camera_fov_deg) / 2);
+    const float aspect = static_cast<float>(in.shown_px.x) / static_cast<float>(in.shown_px.y);
+    block.camera_position_vox = glm::vec4(s.camera_position_vox, 0);
+    block.camera_dir = glm::vec4(basis.dir, 0);
+    block.camera_right = glm::vec4(basis.right * (half * aspect), 0);
+    block.camera_up = glm::vec4(basis.up * half, 0);
+    set_previous_eye(block, block);
+    block.world_size_vox = glm::ivec4(in.world_size_vox, 0);
+    block.counters = {in.frame_index, in.seed, static_cast<std::uint32_t>(s.samples_per_pixel),
+                      in.frames_kept};
+    set_sun(block, s);
+    block.sky_zenith = glm::vec4(s.sky_zenith, 0);
+    block.sky_horizon = glm::vec4(s.sky_horizon, 0);
+    block.trace_limits = {s.max_distance_vox, in.metres_per_voxel, s.firefly_limit, 0};
+    int options = 0;
+    if (s.sun_through_water) options |= option_sun_through_water;
+    if (s.caustics) options |= option_caustics;
+    if (s.diffuse_sampling == DiffuseSampling::Uniform) options |= option_uniform_diffuse;
+    if (s.jitter) options |= option_jitter;
+    block.trace_options = {s.max_bounces, s.roulette_after, static_cast<int>(s.light_sampling), options};
+    block.size_px = {in.traced_px, in.shown_px};
+    block.history = {s.history_alpha, static_cast<float>(s.history_cap), 0, 0};
+    block.display = {std::exp2(s.exposure_ev), s.tone_map == ToneMap::Linear ? 1.0f : 0.0f, 0, 0};
+    return block;
+}
+
+void set_previous_eye(FrameBlock& now, const FrameBlock& before) {
+    now.previous_position_vox = before.camera_position_vox;
+    now.previous_dir = before.camera_dir;
+    now.previous_right = before.camera_right;
+    now.previous_up = before.camera_up;
+}
+
+std::array<MaterialBlockEntry, MATERIAL_COUNT> make_material_block(const MaterialTable& table) {
+    std::array<MaterialBlockEntry, MATERIAL_COUNT> entries{};
+    std::transform(table.begin(), table.end(), entries.begin(), [](const Material& m) {
+        return MaterialBlockEntry{glm::vec4(m.base_color, m.roughness), glm::vec4(m.absorption_per_m, m.ior),
+                                  glm::vec4(m.emission, m.metallic)};
+    });
+    return entries;
+}
+
+}  // namespace tarn

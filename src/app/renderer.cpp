@@ -1,0 +1,377 @@
+#include "app/renderer.h"
+
+#include <chrono>
+#include <cmath>
+#include <optional>
+
+#include "app/camera.h"
+#include "app/frame_block.h"
+#include "core/error.h"
+#include "gl/buffer.h"
+#include "gl/framebuffer.h"
+#include "passes/accumulate_pass.h"
+#include "passes/display_pass.h"
+#include "passes/filter_pass.h"
+#include "passes/pick_pass.h"
+#include "passes/temporal_pass.h"
+#include "passes/trace_pass.h"
+#include "reference/albedo.h"
+#include "shared/bindings.h"
+
+namespace tarn {
+
+namespace {
+
+constexpr float albedo_table[] = {
+#include "albedo_table.inc"
+};
+
+gl::Texture make_albedo_texture() {
+    gl::Texture texture({.label = "albedo table",
+                         .format = GL_RG32F,
+                         .size = {albedo_cos_count, albedo_roughness_count, albedo_eta_count},
+                         .linear = true});
+    texture.upload(std::span<const float>(albedo_table), GL_RG, GL_FLOAT);
+    return texture;
+}
+
+// What one frame sees; two sets, current and previous.
+struct FrameTargets {
+    gl::Texture position, normal, material, history;
+
+    FrameTargets() = default;
+    explicit FrameTargets(glm::ivec2 size)
+        : position({.label = "position", .format = GL_RGBA32F, .size = {size, 0}}),
+          normal({.label = "normal", .format = GL_RGBA16F, .size = {size, 0}}),
+          material({.label = "material", .format = GL_R8UI, .size = {size, 0}}),
+          history({.label = "history", .format = GL_RGBA32F, .size = {size, 0}, .linear = true}) {}
+};
+
+// Sums of exact mode; two sets.
+struct Sums {
+    gl::Texture sum, correction;
+
+    Sums() = default;
+    explicit Sums(glm::ivec2 size)
+        : sum({.label = "sum", .format = GL_RGBA32F, .size = {size, 0}}),
+          correction({.label = "correction", .format = GL_RGBA32F, .size = {size, 0}}) {}
+};
+
+// Everything that depends on the picture's size.
+struct Targets {
+    glm::ivec2 traced_px, shown_px;
+    bool exact;
+    gl::Texture radiance, filtered[2], picture;
+    FrameTargets frames[2];
+    Sums sums[2];
+    gl::Framebuffer trace_target[2], history_target[2], filter_target[2], sums_target[2], picture_target;
+
+    Targets(glm::ivec2 traced, glm::ivec2 shown, bool exact_mode)
+        : traced_px(traced),
+          shown_px(shown),
+          exact(exact_mode),
+          radiance({.label = "radiance", .format = GL_RGBA32F, .size = {traced, 0}, .linear = true}),
+          picture({.label = "picture", .format = GL_RGBA8, .size = {shown, 0}}),
+          picture_target("picture", {&picture}) {
+        for (gl::Texture& texture : filtered)
+            texture =
+                gl::Texture({.label = "filtered", .format = GL_RGBA32F, .size = {traced, 0}, .linear = true});
+        for (int i = 0; i < 2; ++i) {
+            frames[i] = FrameTargets(traced);
+            trace_target[i] = gl::Framebuffer(
+                "trace", {&radiance, &frames[i].position, &frames[i].normal, &frames[i].material});
+            history_target[i] = gl::Framebuffer("history", {&frames[i].history});
+            filter_target[i] = gl::Framebuffer("filter", {&filtered[i]});
+            if (exact) sums[i] = Sums(traced);
+        }
+        if (!exact) return;
+        for (int i = 0; i < 2; ++i)
+            sums_target[i] = gl::Framebuffer("sums", {&sums[i].sum, &sums[i].correction, &filtered[0]});
+    }
+};
+
+class Stopwatch {
+  public:
+    double ms() const {
+        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+  private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+struct Renderer::Parts {
+    gl::Timers& timers;
+    MaterialTable materials;
+    float metres_per_voxel;
+    std::uint32_t seed;
+
+    gl::Texture albedo = make_albedo_texture();
+    gl::Buffer frame_block{"frame block", sizeof(FrameBlock)};
+    gl::Buffer material_block{"materials", sizeof(make_material_block({}))};
+    gl::Buffer rejected{"rejected samples", sizeof(std::uint32_t)};
+
+    // A program is built when first used: a run pays for the passes it needs.
+    double compile_ms = 0;
+    std::optional<TracePass> trace[2];        // [skip]
+    std::optional<TemporalPass> temporal[2];  // [blend]
+    std::optional<FilterPass> filter[2];      // [gaussian]
+    std::optional<AccumulatePass> accumulate;
+    std::optional<DisplayPass> display[2];  // [radiance only]
+    std::optional<PickPass> pick[2];        // [through water]
+
+    std::optional<Targets> targets;
+    FrameBlock block;   // of the last frame
+    Settings settings;  // of the last frame
+    int current = 0;    // which of the two sets the last frame wrote
+    bool has_history = false;
+    std::uint64_t world_version = 0;  // seen by the last frame
+    std::uint64_t frame_index = 0;
+    std::uint64_t frames_kept = 0;
+    const gl::Texture* shown = nullptr;  // radiance of the last frame
+
+    Parts(const Scene& scene, gl::Timers& timers_)
+        : timers(timers_),
+          materials(scene.materials),
+          metres_per_voxel(scene.metres_per_voxel),
+          seed(scene.seed) {}
+
+    template <typename Pass, typename Argument>
+    Pass& built(std::optional<Pass>& pass, Argument argument) {
+        if (!pass) {
+            const Stopwatch watch;
+            pass.emplace(argument);
+            compile_ms += watch.ms();
+        }
+        return *pass;
+    }
+    AccumulatePass& accumulate_pass() {
+        if (!accumulate) {
+            const Stopwatch watch;
+            accumulate.emplace();
+            compile_ms += watch.ms();
+        }
+        return *accumulate;
+    }
+
+    void prepare_targets(const Settings& now, glm::ivec2 size_px);
+    void upload_frame(const Simulation& simulation, const Settings& now);
+    SurfaceBuffers surfaces(int set, const gl::Texture& radiance) const {
+        const FrameTargets& frame = targets->frames[set];
+        return {radiance, frame.position, frame.normal, frame.material};
+    }
+    const gl::Texture& accumulate_exact();
+    const gl::Texture& reproject_and_filter(const Simulation& simulation);
+};
+
+void Renderer::Parts::prepare_targets(const Settings& now, glm::ivec2 size_px) {
+    const glm::ivec2 traced =
+        glm::max(glm::ivec2(1), glm::ivec2(glm::round(glm::vec2(size_px) * now.resolution_scale)));
+    const bool exact = now.history == History::Exact;
+    if (targets && targets->traced_px == traced && targets->shown_px == size_px && targets->exact == exact)
+        return;
+    targets.reset();  // before the new ones take memory
+    targets.emplace(traced, size_px, exact);
+    has_history = false;
+}
+
+void Renderer::Parts::upload_frame(const Simulation& simulation, const Settings& now) {
+    const bool exact = now.history == History::Exact;
+    if (difference(now, settings) >= SettingEffect::IMAGE) has_history = false;
+    const bool eye_moved = now.camera_position_vox != settings.camera_position_vox ||
+                           now.camera_yaw_deg != settings.camera_yaw_deg ||
+                           now.camera_pitch_deg != settings.camera_pitch_deg ||
+                           now.camera_fov_deg != settings.camera_fov_deg;
+    // Exact mode keeps no frame of another view or another world.
+    if (exact && (eye_moved || simulation.version() != world_version)) has_history = false;
+    if (!has_history) frames_kept = 0;
+    settings = now;
+
+    apply_water_settings(now, materials);
+    const auto entries = make_material_block(materials);
+    material_block.upload(entries);
+    const FrameBlock before = block;
+    block = make_frame_block(
+        {.settings = now,
+         .world_size_vox = simulation.size_vox(),
+         .metres_per_voxel = metres_per_voxel,
+         .seed = seed,
+         .frame_index = static_cast<std::uint32_t>(frame_index),
+         .frames_kept = static_cast<std::uint32_t>(std::min<std::uint64_t>(frames_kept, ~0u)),
+         .traced_px = targets->traced_px,
+         .shown_px = targets->shown_px});
+    if (has_history) set_previous_eye(block, before);
+    block.world_size_vox.w = has_history ? 1 : 0;
+    frame_block.upload(std::span(&block, 1));
+    frame_block.bind_uniform(BINDING_FRAME);
+    material_block.bind_uniform(BINDING_MATERIALS);
+}
+
+const gl::Texture& Renderer::Parts::accumulate_exact() {
+    const Sums& previous = targets->sums[1 - current];
+    accumulate_pass().record({.radiance = targets->radiance,
+                              .previous_sum = previous.sum,
+                              .previous_correction = previous.correction,
+                              .rejected = rejected},
+                             {.sums = targets->sums_target[current]}, timers);
+    return targets->filtered[0];
+}
+
+const gl::Texture& Renderer::Parts::reproject_and_filter(const Simulation& simulation) {
+    const gl::Texture* radiance = &targets->radiance;
+    if (settings.history != History::None) {
+        const bool blend = settings.history == History::Blend;
+        built(temporal[blend], blend)
+            .record({.current = surfaces(current, targets->radiance),
+                     .previous = surfaces(1 - current, targets->frames[1 - current].history),
+                     .brick_changed = simulation.brick_changed(),
+                     .previous_version = static_cast<std::uint32_t>(world_version),
+                     .rejected = rejected},
+                    {.history = targets->history_target[current]}, timers);
+        radiance = &targets->frames[current].history;
+    }
+    if (settings.filter == Filter::None) return *radiance;
+    const bool gaussian = settings.filter == Filter::Gaussian;
+    for (int pass = 0; pass < settings.filter_passes; ++pass) {
+        for (int axis = 0; axis < 2; ++axis) {
+            const int distance = 1 << pass;
+            const glm::ivec2 step = axis == 0 ? glm::ivec2(distance, 0) : glm::ivec2(0, distance);
+            built(filter[gaussian], gaussian)
+                .record({.surfaces = surfaces(current, *radiance), .step_px = step},
+                        {.target = targets->filter_target[axis]}, timers);
+            radiance = &targets->filtered[axis];
+        }
+    }
+    return *radiance;
+}
+
+Renderer::Renderer(const Scene& scene, gl::Timers& timers) : parts_(std::make_unique<Parts>(scene, timers)) {}
+
+Renderer::~Renderer() = default;
+
+const gl::Texture& Renderer::render(const Simulation& simulation, const Settings& settings,
+                                    glm::ivec2 size_px) {
+    Parts& p = *parts_;
+    p.prepare_targets(settings, size_px);
+    p.upload_frame(simulation, settings);
+    p.current = 1 - p.current;
+
+    const bool skip = settings.traversal == Traversal::Distance;
+    p.built(p.trace[skip], skip)
+        .record({.cells = simulation.cells(),
+                 .brick_distance = simulation.brick_distance(),
+                 .albedo_table = p.albedo,
+                 .rejected = p.rejected},
+                {.target = p.targets->trace_target[p.current]}, p.timers);
+    p.shown =
+        settings.history == History::Exact ? &p.accumulate_exact() : &p.reproject_and_filter(simulation);
+    p.built(p.display[0], false)
+        .record({.radiance = *p.shown}, {.picture = p.targets->picture_target}, p.timers);
+
+    p.has_history = true;
+    p.world_version = simulation.version();
+    ++p.frame_index;
+    ++p.frames_kept;
+    return p.targets->picture;
+}
+
+void Renderer::reset_history() {
+    parts_->has_history = false;
+}
+
+Pick Renderer::pick(const Simulation& simulation, const Settings& settings, glm::ivec2 size_px,
+                    glm::vec2 at_px, bool through_water) {
+    Parts& p = *parts_;
+    const FrameBlock block = make_frame_block({.settings = settings,
+                                               .world_size_vox = simulation.size_vox(),
+                                               .metres_per_voxel = p.metres_per_voxel,
+                                               .seed = p.seed,
+                                               .frame_index = 0,
+                                               .frames_kept = 0,
+                                               .traced_px = size_px,
+                                               .shown_px = size_px});
+    p.frame_block.upload(std::span(&block, 1));
+    p.frame_block.bind_uniform(BINDING_FRAME);
+    const PickPass::Result result =
+        p.built(p.pick[through_water], through_water)
+            .record({.cells = simulation.cells(), .dir = View(settings, size_px).dir_through(at_px)},
+                    p.timers);
+    return {.hit = result.cell.w != 0,
+            .cell = glm::ivec3(result.cell),
+            .normal = glm::ivec3(result.normal),
+            .byte = static_cast<std::uint8_t>(result.normal.w)};
+}
+
+ImageRgba8 Renderer::read_picture() const {
+    CHECK(parts_->targets);
+    const glm::ivec2 size = parts_->targets->shown_px;
+    std::vector<std::uint8_t> pixels(std::size_t{4} * size.x * size.y);
+    parts_->targets->picture.download(std::span(pixels), GL_RGBA, GL_UNSIGNED_BYTE);
+    ImageRgba8 image{size.x, size.y, {}};
+    const std::size_t row = std::size_t{4} * size.x;
+    image.pixels.reserve(pixels.size());
+    for (int y = size.y - 1; y >= 0; --y)
+        image.pixels.insert(image.pixels.end(), pixels.begin() + y * row, pixels.begin() + (y + 1) * row);
+    return image;
+}
+
+ImageRgb32f Renderer::read_radiance() const {
+    Parts& p = *parts_;
+    CHECK(p.targets && p.shown != nullptr);
+    const glm::ivec2 size = p.targets->shown_px;
+    const gl::Texture resolved({.label = "shown radiance", .format = GL_RGBA32F, .size = {size, 0}});
+    const gl::Framebuffer target("shown radiance", {&resolved});
+    p.frame_block.upload(std::span(&p.block, 1));
+    p.frame_block.bind_uniform(BINDING_FRAME);
+    p.built(p.display[1], true).record({.radiance = *p.shown}, {.picture = target}, p.timers);
+    std::vector<float> pixels(std::size_t{3} * size.x * size.y);
+    resolved.download(std::span(pixels), GL_RGB, GL_FLOAT);
+    ImageRgb32f image{size.x, size.y, {}};
+    const std::size_t row = std::size_t{3} * size.x;
+    image.pixels.reserve(pixels.size());
+    for (int y = size.y - 1; y >= 0; --y)
+        image.pixels.insert(image.pixels.end(), pixels.begin() + y * row, pixels.begin() + (y + 1) * row);
+    return image;
+}
+
+std::uint64_t Renderer::samples() const {
+    const Settings& s = parts_->settings;
+    std::uint64_t frames = 1;
+    if (s.history == History::Exact) frames = parts_->frames_kept;
+    if (s.history == History::Count) frames = std::min<std::uint64_t>(parts_->frames_kept, s.history_cap);
+    return frames * static_cast<std::uint64_t>(s.samples_per_pixel);
+}
+
+std::uint64_t Renderer::rejected_samples() const {
+    std::uint32_t count = 0;
+    parts_->rejected.download(std::span(&count, 1));
+    return count;
+}
+
+double Renderer::compile_ms() const {
+    return parts_->compile_ms;
+}
+
+std::vector<std::string> Renderer::poll_reload() {
+    std::vector<std::string> messages;
+    const auto poll = [&](auto& pass) {
+        if (!pass) return;
+        if (auto message = pass->program().poll_reload()) {
+            messages.push_back(*message);
+            parts_->has_history = false;
+        }
+    };
+    for (int i = 0; i < 2; ++i) {
+        poll(parts_->trace[i]);
+        poll(parts_->temporal[i]);
+        poll(parts_->filter[i]);
+        poll(parts_->display[i]);
+        poll(parts_->pick[i]);
+    }
+    poll(parts_->accumulate);
+    return messages;
+}
+
+}  // namespace tarn

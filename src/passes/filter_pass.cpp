@@ -1,0 +1,30 @@
+#include "passes/filter_pass.h"
+
+#include "shared/bindings.h"
+
+namespace tarn {
+
+FilterPass::FilterPass(bool gaussian)
+    : program_({.label = gaussian ? "filter gaussian" : "filter",
+                .compute = {},
+                .vertex = "pass/fullscreen.vert",
+                .fragment = "pass/filter.frag",
+                .defines = gaussian
+                               ? std::vector<std::pair<std::string, std::string>>{{"FILTER_GAUSSIAN", "1"}}
+                               : std::vector<std::pair<std::string, std::string>>{}}),
+      gaussian_(gaussian) {}
+
+void FilterPass::record(const Inputs& inputs, const Outputs& outputs, gl::Timers& timers) const {
+    const auto scope = timers.scope("filter");
+    inputs.surfaces.radiance.bind(BINDING_FIRST_INPUT);
+    if (!gaussian_) {
+        inputs.surfaces.position.bind(BINDING_FIRST_INPUT + 1);
+        inputs.surfaces.normal.bind(BINDING_FIRST_INPUT + 2);
+        inputs.surfaces.material.bind(BINDING_FIRST_INPUT + 3);
+    }
+    program_.set("step_px", inputs.step_px);
+    program_.use();
+    outputs.target.draw_fullscreen();
+}
+
+}  // namespace tarn

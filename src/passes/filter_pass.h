@@ -1,0 +1,32 @@
+// One direction of a separable blur against noise. glsl/pass/filter.frag.
+#pragma once
+#include <glm/glm.hpp>
+
+#include "gl/framebuffer.h"
+#include "gl/program.h"
+#include "gl/timers.h"
+#include "passes/temporal_pass.h"
+
+namespace tarn {
+
+class FilterPass {
+  public:
+    struct Inputs {
+        SurfaceBuffers surfaces;
+        glm::ivec2 step_px;  // between taps: (n, 0) or (0, n)
+    };
+    struct Outputs {
+        const gl::Framebuffer& target;
+    };
+
+    // gaussian: over everything; otherwise within one surface.
+    explicit FilterPass(bool gaussian);
+    void record(const Inputs& inputs, const Outputs& outputs, gl::Timers& timers) const;
+    gl::Program& program() { return program_; }
+
+  private:
+    gl::Program program_;
+    bool gaussian_;
+};
+
+}  // namespace tarn

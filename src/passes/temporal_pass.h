@@ -1,0 +1,43 @@
+// Reverse reprojection of earlier frames. glsl/pass/temporal.frag.
+#pragma once
+#include <cstdint>
+
+#include "gl/buffer.h"
+#include "gl/framebuffer.h"
+#include "gl/program.h"
+#include "gl/texture.h"
+#include "gl/timers.h"
+
+namespace tarn {
+
+// The four buffers of a frame.
+struct SurfaceBuffers {
+    const gl::Texture& radiance;
+    const gl::Texture& position;
+    const gl::Texture& normal;
+    const gl::Texture& material;
+};
+
+class TemporalPass {
+  public:
+    struct Inputs {
+        SurfaceBuffers current;
+        SurfaceBuffers previous;  // radiance: history, alpha: frames kept
+        const gl::Texture& brick_changed;
+        std::uint32_t previous_version;  // of the world, when the previous frame was made
+        const gl::Buffer& rejected;
+    };
+    struct Outputs {
+        const gl::Framebuffer& history;
+    };
+
+    // blend: constant weight; otherwise a running mean.
+    explicit TemporalPass(bool blend);
+    void record(const Inputs& inputs, const Outputs& outputs, gl::Timers& timers) const;
+    gl::Program& program() { return program_; }
+
+  private:
+    gl::Program program_;
+};
+
+}  // namespace tarn

@@ -1,0 +1,93 @@
+#include "reference/albedo.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/glm.hpp>
+#include <numbers>
+
+namespace tarn {
+
+namespace {
+
+double fresnel(double cos_i, double eta) {
+    if (eta == 1) return 0;
+    const double sin2_t = (1 - cos_i * cos_i) / (eta * eta);
+    if (sin2_t >= 1) return 1;
+    const double cos_t = std::sqrt(1 - sin2_t);
+    const double parallel = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
+    const double perpendicular = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
+    return 0.5 * (parallel * parallel + perpendicular * perpendicular);
+}
+
+double lambda(const glm::dvec3& w, double alpha) {
+    const double tan2 = (w.x * w.x + w.y * w.y) / (w.z * w.z);
+    return 0.5 * (std::sqrt(1 + alpha * alpha * tan2) - 1);
+}
+
+}  // namespace
+
+double ggx_dielectric_albedo(double cos_o, double alpha, double eta, int n) {
+    cos_o = std::clamp(cos_o, 1e-4, 1.0);
+    if (alpha < 1e-3) return fresnel(cos_o, eta);
+    const glm::dvec3 wo(std::sqrt(1 - cos_o * cos_o), 0, cos_o);
+    // Normals visible from wo by the projected-disc parametrisation (Heitz 2018): independent of the shaders'
+    // caps.
+    const glm::dvec3 v = glm::normalize(glm::dvec3(alpha * wo.x, 0, wo.z));
+    const glm::dvec3 t1(0, 1, 0);
+    const glm::dvec3 t2 = glm::cross(v, t1);
+    double sum = 0;
+    for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < n; ++j) {
+            const double r = std::sqrt((i + 0.5) / n);
+            const double phi = 2 * std::numbers::pi * (j + 0.5) / n;
+            const double x = r * std::cos(phi);
+            const double s = 0.5 * (1 + v.z);
+            const double y = (1 - s) * std::sqrt(1 - x * x) + s * r * std::sin(phi);
+            const glm::dvec3 h_std = x * t1 + y * t2 + std::sqrt(std::max(0.0, 1 - x * x - y * y)) * v;
+            const glm::dvec3 h =
+                glm::normalize(glm::dvec3(alpha * h_std.x, alpha * h_std.y, std::max(1e-12, h_std.z)));
+            const double cos_h = std::min(1.0, glm::dot(wo, h));
+            const glm::dvec3 wi = 2 * cos_h * h - wo;
+            if (wi.z <= 0 || cos_h <= 0) continue;
+            const double lambda_o = lambda(wo, alpha);
+            sum += fresnel(cos_h, eta) * (1 + lambda_o) / (1 + lambda_o + lambda(wi, alpha));
+        }
+    }
+    return sum / (n * n);
+}
+
+std::vector<float> make_albedo_table() {
+    constexpr int quadrature = 24;
+    std::vector<float> table;
+    table.reserve(std::size_t{2} * albedo_cos_count * albedo_roughness_count * albedo_eta_count);
+    for (int e = 0; e < albedo_eta_count; ++e) {
+        const double s = albedo_eta_range * (2.0 * e / (albedo_eta_count - 1) - 1);
+        const double eta = (1 + s) / (1 - s);
+        for (int r = 0; r < albedo_roughness_count; ++r) {
+            const double roughness = static_cast<double>(r) / (albedo_roughness_count - 1);
+            double albedo[albedo_cos_count];
+            for (int c = 0; c < albedo_cos_count; ++c) {
+                const double root = static_cast<double>(c) / (albedo_cos_count - 1);
+                albedo[c] = ggx_dielectric_albedo(root * root, roughness * roughness, eta, quadrature);
+            }
+            // 2 integral of E(mu) mu dmu with mu = u^2: 4 integral of E(u) u^3 du, E linear between samples.
+            double mean = 0;
+            constexpr int pieces = 16;
+            for (int c = 0; c + 1 < albedo_cos_count; ++c) {
+                for (int k = 0; k < pieces; ++k) {
+                    const double f = (k + 0.5) / pieces;
+                    const double u = (c + f) / (albedo_cos_count - 1);
+                    mean += 4 * (albedo[c] + f * (albedo[c + 1] - albedo[c])) * u * u * u /
+                            (pieces * (albedo_cos_count - 1));
+                }
+            }
+            for (const double value : albedo) {
+                table.push_back(static_cast<float>(value));
+                table.push_back(static_cast<float>(mean));
+            }
+        }
+    }
+    return table;
+}
+
+}  // namespace tarn

@@ -1,0 +1,24 @@
+// Directional albedo of a GGX interface by quadrature in double precision: the table that the shaders read,
+// and the reference of their tests.
+#pragma once
+#include <vector>
+
+namespace tarn {
+
+// Part of light arriving from a direction at `cos_o` to the normal that a dielectric GGX interface of `alpha`
+// and eta = index beyond / index here reflects after one scattering. Smooth below alpha 1e-3. `n` x `n`
+// points.
+double ggx_dielectric_albedo(double cos_o, double alpha, double eta, int n);
+
+// Axes of the table: sqrt(cos), roughness = sqrt(alpha), (eta - 1) / (eta + 1) in [-albedo_eta_range, +...];
+// both ends included.
+constexpr int albedo_cos_count = 32;
+constexpr int albedo_roughness_count = 16;
+constexpr int albedo_eta_count = 25;
+constexpr double albedo_eta_range = 0.6;
+
+// Pairs (E(cos), Eavg), cos fastest, then roughness, then eta. Eavg integrates the table's own interpolation,
+// so that a white base under it conserves energy.
+std::vector<float> make_albedo_table();
+
+}  // namespace tarn
