@@ -1,0 +1,13 @@
+// The `block` tier of the water in plain serial code: what glsl/pass/block_step.comp must do, byte for byte.
+#pragma once
+#include <cstdint>
+
+#include "world/cells.h"
+
+namespace tarn {
+
+// One tick. `film_threshold` in quanta. Any byte is allowed in `cells`: those that are not air, sand or water
+// are solid, as is what lies outside the world.
+void water_block_tick(Cells& cells, std::uint32_t seed, std::uint32_t tick, int film_threshold);
+
+}  // namespace tarn
