@@ -12,7 +12,7 @@ struct Surface {
     float alpha;
     float metallic;
     float eta;         // index beyond / index here
-    bool interface;    // opaque: a GGX interface over the Lambert base
+    bool coated;       // opaque: a GGX interface over the Lambert base
     bool transmissive;
 };
 
@@ -29,7 +29,7 @@ Surface surface_of(uint beyond, uint medium) {
     s.transmissive = transmits(beyond);
     s.base = m.base_roughness.rgb;
     s.metallic = m.emission_metallic.w;
-    s.interface = m.absorption_ior.w != 1.0;
+    s.coated = m.absorption_ior.w != 1.0;
     s.eta = m.absorption_ior.w / ior_of(medium);
     // Between two transparent media the rougher one makes the surface; air has none of its own.
     float roughness = beyond == MATERIAL_AIR ? 0.0 : m.base_roughness.w;
@@ -48,14 +48,14 @@ vec2 albedo_lookup(float cos_w, float alpha, float eta) {
 
 // Reflectance of the interface at one microfacet: dielectric and metal blended.
 vec3 opaque_fresnel(Surface s, float cos_h) {
-    float dielectric = s.interface ? fresnel_dielectric(cos_h, s.eta) : 0.0;
+    float dielectric = s.coated ? fresnel_dielectric(cos_h, s.eta) : 0.0;
     if (s.metallic == 0.0) return vec3(dielectric);
     return mix(vec3(dielectric), fresnel_schlick(cos_h, s.base), s.metallic);
 }
 
 // Factor of the Lambert base that leaves room for what the interface reflects (Kelemen & Szirmay-Kalos 2001).
 float base_factor(Surface s, vec3 wo, vec3 wi) {
-    if (!s.interface) return 1.0;
+    if (!s.coated) return 1.0;
     vec2 out_ = albedo_lookup(wo.z, s.alpha, s.eta);
     float in_ = albedo_lookup(wi.z, s.alpha, s.eta).r;
     return (1.0 - out_.r) * (1.0 - in_) / max(1e-4, 1.0 - out_.g);
@@ -63,7 +63,7 @@ float base_factor(Surface s, vec3 wo, vec3 wi) {
 
 // Probability of sampling the interface rather than the base.
 float interface_probability(Surface s, vec3 wo) {
-    float e = s.interface ? albedo_lookup(wo.z, s.alpha, s.eta).r : 0.0;
+    float e = s.coated ? albedo_lookup(wo.z, s.alpha, s.eta).r : 0.0;
     float mirror = mix(e, max_component(s.base), s.metallic);
     float diffuse = (1.0 - s.metallic) * max_component(s.base) * (1.0 - e);
     return mirror + diffuse > 0.0 ? mirror / (mirror + diffuse) : 0.0;

@@ -6,8 +6,11 @@ layout(binding = 4) uniform sampler2D radiance;
 
 layout(location = 0) out vec4 out_picture;
 
-// Fit of the ACES filmic curve (Narkowicz 2015).
-vec3 filmic(vec3 x) { return clamp((x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0); }
+// Fit of the ACES filmic curve (Narkowicz 2015); 0.6 is its exposure, by which 0.18 stays near 0.18.
+vec3 filmic(vec3 x) {
+    x *= 0.6;
+    return clamp((x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
+}
 
 vec3 srgb_from_linear(vec3 c) {
     return mix(1.055 * pow(max(c, vec3(0.0031308)), vec3(1.0 / 2.4)) - 0.055, 12.92 * c, lessThan(c, vec3(0.0031308)));
