@@ -80,7 +80,7 @@ TerrainShape read_shape(const JsonNode& node) {
 Terrain read_terrain(const JsonNode& node, glm::ivec3 size) {
     node.allow_only({"base_height_vox", "amplitude_vox", "wavelength_vox", "octaves", "persistence", "ridged",
                      "warp_vox", "salt", "shapes", "top", "under", "rock", "under_depth_vox", "rock_slope",
-                     "beach", "patches"});
+                     "bare_height_vox", "beach", "patches"});
     Terrain terrain;
     terrain.base_height_vox = size.y / 4.0;
     terrain.amplitude_vox = size.y / 8.0;
@@ -94,6 +94,8 @@ Terrain read_terrain(const JsonNode& node, glm::ivec3 size) {
     read_whole(node, "salt", 0, coordinate_max_vox, terrain.salt);
     read_whole(node, "under_depth_vox", 0, world_side_max_vox, terrain.under_depth_vox);
     read_whole(node, "rock_slope", 1, world_side_max_vox, terrain.rock_slope);
+    if (const auto bare = node.find("bare_height_vox"))
+        terrain.bare_height_vox = bare->number(-length_max_vox, length_max_vox);
     read_solid(node, "top", terrain.top);
     read_solid(node, "under", terrain.under);
     read_solid(node, "rock", terrain.rock);

@@ -23,7 +23,7 @@ struct Columns {
 };
 
 // Noise layers lie in planes of one 3D field, far enough apart to be unrelated and off its whole coordinates.
-enum Layer { GROUND, WARP_X, WARP_Z, BEACH, PATCHES };
+enum Layer { GROUND, WARP_X, WARP_Z, BEACH, PATCHES, BARE };
 
 glm::dvec3 in_layer(Layer layer, double x, double z) {
     return {x, 0.37 + 19.0 * int{layer}, z};
@@ -89,6 +89,11 @@ int steepest_step(const Columns<int>& heights, int x, int z) {
     return step;
 }
 
+bool is_bare(const Terrain& terrain, const PerlinNoise& noise, int x, int z, int height) {
+    if (!terrain.bare_height_vox) return false;
+    return height > *terrain.bare_height_vox + 3 * noise.at(in_layer(BARE, x / 9.0, z / 9.0));
+}
+
 }  // namespace
 
 void build_terrain(const Terrain& terrain, std::uint32_t seed, Cells& cells) {
@@ -116,7 +121,8 @@ void build_terrain(const Terrain& terrain, std::uint32_t seed, Cells& cells) {
             if (terrain.beach && height <= beach_tops.at(x, z)) {
                 top = under = terrain.beach->material;
                 under_depth = terrain.beach->depth_vox;
-            } else if (steepest_step(heights, x, z) >= terrain.rock_slope) {
+            } else if (steepest_step(heights, x, z) >= terrain.rock_slope ||
+                       is_bare(terrain, noise, x, z, height)) {
                 top = under = terrain.rock;
             } else if (terrain.patches) {
                 const double scale = 1 / terrain.patches->wavelength_vox;

@@ -16,6 +16,7 @@
 //   top, under, rock  materials: the surface, below it, and deeper               [grass, dirt, stone]
 //   under_depth_vox   thickness of `under`                                       [3]
 //   rock_slope        a step to a neighbour of at least this many voxels bares the rock  [3]
+//   bare_height_vox   rock lies bare above this height, more or less 3 voxels    [never]
 //   beach             {material [sand], height_vox: reaches up to here, wobble_vox: more or less [1],
 //                     depth_vox: thickness [2]}; its slope is at most 45 degrees, so sand lies at rest
 //   patches           {material, wavelength_vox [12], cover 0 to 1 [0.3]} in place of `top` here and there
@@ -55,6 +56,7 @@ struct Terrain {
     std::vector<TerrainShape> shapes;
     std::uint8_t top = MATERIAL_GRASS, under = MATERIAL_DIRT, rock = MATERIAL_STONE;
     int under_depth_vox = 3, rock_slope = 3;
+    std::optional<double> bare_height_vox;
     std::optional<TerrainBeach> beach;
     std::optional<TerrainPatches> patches;
 };
