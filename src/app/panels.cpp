@@ -50,39 +50,14 @@ constexpr HelpLine help_lines[] = {
     {"Ctrl+Q", "quit"},
 };
 
-void draw_help(bool& open) {
-    const ImVec2 display = ImGui::GetIO().DisplaySize;
-    const float font = ImGui::GetFontSize();
-    ImGui::SetNextWindowPos({display.x * 0.02f, display.y * 0.05f}, ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSize({std::min(font * 36, display.x * 0.9f), std::min(font * 38, display.y * 0.9f)},
-                             ImGuiCond_FirstUseEver);
-    if (ImGui::Begin("Help", &open)) {
-        ImGui::PushTextWrapPos(0);
-        for (const HelpLine& line : help_lines) {
-            if (line.keys == nullptr) {
-                ImGui::Separator();
-                ImGui::TextColored({1, 0.8f, 0.4f, 1}, "%s", line.text);
-                continue;
-            }
-            if (*line.keys != '\0') {
-                ImGui::TextUnformatted(line.keys);
-                ImGui::SameLine(font * 11);
-            }
-            ImGui::TextWrapped("%s", line.text);
-        }
-        ImGui::PopTextWrapPos();
-    }
-    ImGui::End();
-}
-
 void draw_time(const Panels::Inputs& inputs, Actions& actions) {
     actions.toggle_pause |= button(inputs.paused ? "Go on" : "Pause", "Stop or go on with the ticks (P).");
     ImGui::SameLine();
     actions.step |= button("Step", "Pause, then one tick (N).");
     ImGui::SameLine();
-    actions.slower |= button("Slower", "Half the ticks per second (-).");
+    actions.slower |= button("Slower", "Half the speed of time, down to a sixteenth (-).");
     ImGui::SameLine();
-    actions.faster |= button("Faster", "Twice the ticks per second (+).");
+    actions.faster |= button("Faster", "Twice the speed of time, up to sixteen times (+).");
     ImGui::SameLine();
     actions.reload |= button("Reload", "The scene's voxels from the start; settings and camera stay (R).");
 }
@@ -133,8 +108,34 @@ void draw_world(const Panels::Inputs& inputs, Actions& actions) {
 }  // namespace
 
 void Panels::draw(const Inputs& inputs, Actions& actions) {
-    if (help_open) draw_help(help_open);
+    if (help_open) draw_help();
     if (settings_open) draw_settings(inputs, actions);
+}
+
+void Panels::draw_help() {
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const float font = ImGui::GetFontSize();
+    ImGui::SetNextWindowPos({display.x * 0.02f, display.y * 0.05f}, ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSize({std::min(font * 36, display.x * 0.9f), std::min(font * 38, display.y * 0.9f)},
+                             ImGuiCond_FirstUseEver);
+    if (ImGui::Begin("Help", &help_open)) {
+        help_shown_ = true;
+        ImGui::PushTextWrapPos(0);
+        for (const HelpLine& line : help_lines) {
+            if (line.keys == nullptr) {
+                ImGui::Separator();
+                ImGui::TextColored({1, 0.8f, 0.4f, 1}, "%s", line.text);
+                continue;
+            }
+            if (*line.keys != '\0') {
+                ImGui::TextUnformatted(line.keys);
+                ImGui::SameLine(font * 11);
+            }
+            ImGui::TextWrapped("%s", line.text);
+        }
+        ImGui::PopTextWrapPos();
+    }
+    ImGui::End();
 }
 
 void Panels::draw_settings(const Inputs& inputs, Actions& actions) {
@@ -144,6 +145,7 @@ void Panels::draw_settings(const Inputs& inputs, Actions& actions) {
     ImGui::SetNextWindowSize({std::min(font * 30, display.x * 0.8f), std::min(font * 45, display.y * 0.9f)},
                              ImGuiCond_FirstUseEver);
     if (ImGui::Begin("Settings", &settings_open)) {
+        settings_shown_ = true;
         draw_time(inputs, actions);
         ImGui::Separator();
         draw_brush(inputs, actions);

@@ -32,9 +32,15 @@ class Panels {
     void draw(const Inputs& inputs, Actions& actions);
 
     bool help_open = false, settings_open = false;
+    // True once the window's widgets have been on the screen.
+    bool help_was_shown() const { return help_shown_; }
+    bool settings_was_shown() const { return settings_shown_; }
 
   private:
+    void draw_help();
     void draw_settings(const Inputs& inputs, Actions& actions);
+
+    bool help_shown_ = false, settings_shown_ = false;
 };
 
 }  // namespace tarn

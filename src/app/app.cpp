@@ -1,0 +1,269 @@
+#include "app/app.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "app/overlay.h"
+#include "core/error.h"
+
+namespace tarn {
+
+namespace {
+
+constexpr double poll_interval_s = 0.5;
+constexpr double message_s = 5;
+constexpr double rate_window_s = 0.5;
+
+Actions actions_of(const Input& input) {
+    Actions actions;
+    actions.toggle_pause = input.was_pressed(Key::Pause);
+    actions.step = input.was_pressed(Key::Step);
+    actions.faster = input.was_pressed(Key::Faster);
+    actions.slower = input.was_pressed(Key::Slower);
+    actions.reload = input.was_pressed(Key::Reset);
+    actions.undo = input.was_pressed(Key::Undo);
+    actions.redo = input.was_pressed(Key::Redo);
+    actions.screenshot = input.was_pressed(Key::Screenshot);
+    return actions;
+}
+
+// Another scene brings its camera, water, sun and sky; how the player sees and runs it stays.
+Settings carried_over(const Settings& from_scene, const Settings& current) {
+    Settings settings = from_scene;
+    for (const SettingInfo& info : setting_infos()) {
+        const bool of_scene = info.group == SettingGroup::CAMERA || info.group == SettingGroup::WATER ||
+                              info.group == SettingGroup::SKY;
+        if (!of_scene) info.set(settings, info.get(current));
+    }
+    return settings;
+}
+
+bool same_camera(const Settings& a, const Settings& b) {
+    return a.camera_position_vox == b.camera_position_vox && a.camera_yaw_deg == b.camera_yaw_deg &&
+           a.camera_pitch_deg == b.camera_pitch_deg && a.camera_fov_deg == b.camera_fov_deg;
+}
+
+double tick_ms_total(const gl::Timers& timers) {
+    double sum_ms = 0;
+    for (const gl::PassTime& pass : timers.passes()) {
+        if (pass.name == "step" || pass.name == "flow") sum_ms += pass.total_ms;
+    }
+    return sum_ms;
+}
+
+}  // namespace
+
+App::App(Scene scene, const Settings& settings, Options options)
+    : options_(options),
+      scene_(std::move(scene)),
+      settings_(settings),
+      rendered_(settings),
+      simulation_(std::make_unique<Simulation>(scene_, timers_)),
+      renderer_(std::make_unique<Renderer>(scene_, timers_)) {
+    set_title();
+}
+
+App::~App() = default;
+
+double App::now_s() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+void App::set_title() {
+    if (options_.platform != nullptr) options_.platform->set_title("Tarn - " + scene_.name);
+}
+
+void App::say(const std::string& text) {
+    message_ = text;
+    message_until_s_ = now_s() + message_s;
+}
+
+void App::load(const std::string& name_or_path) {
+    Settings base;
+    apply_quality(base, Quality::Balanced);
+    Scene scene = load_scene(name_or_path, base);
+    auto simulation = std::make_unique<Simulation>(scene, timers_);
+    auto renderer = std::make_unique<Renderer>(scene, timers_);
+    scene_ = std::move(scene);
+    simulation_ = std::move(simulation);
+    renderer_ = std::move(renderer);
+    settings_ = carried_over(scene_.settings, settings_);
+    history_.clear();
+    tools_.end_stroke();
+    set_title();
+}
+
+void App::reload() {
+    simulation_ = std::make_unique<Simulation>(scene_, timers_);
+    renderer_->reset_history();
+    history_.clear();
+    tools_.end_stroke();
+}
+
+const gl::Texture& App::frame(const Input& input) {
+    const bool interactive = options_.interactive && input.interactive;
+    Actions actions;
+    if (interactive) {
+        if (now_s() >= next_poll_s_) poll_shaders();
+        change_settings(input, actions);
+        run_actions(actions);
+    }
+    if (difference(settings_, rendered_) != SettingEffect::NONE) renderer_->reset_history();
+    if (options_.platform != nullptr) options_.platform->set_vsync(settings_.vsync);
+    if (interactive) edit(input);
+    advance(input);
+
+    const gl::Texture& picture = renderer_->render(*simulation_, settings_, input.size_px);
+    rendered_ = settings_;
+    ++frames_;
+    if (actions.screenshot) write_screenshot();
+    timers_.end_frame();
+    simulation_->refresh_census(now_s());
+    if (interactive) draw_overlays(input);
+    return picture;
+}
+
+void App::poll_shaders() {
+    next_poll_s_ = now_s() + poll_interval_s;
+    rejected_samples_ = renderer_->rejected_samples();
+    std::vector<std::string> messages = simulation_->poll_reload();
+    for (std::string& message : renderer_->poll_reload()) messages.push_back(std::move(message));
+    if (messages.empty()) return;
+    shader_error_.clear();
+    for (const std::string& message : messages) {
+        if (!message.empty()) shader_error_ += message + "\n";
+    }
+    if (shader_error_.empty())
+        say("shaders rebuilt");
+    else
+        fmt::print(stderr, "{}", shader_error_);
+    renderer_->reset_history();
+}
+
+void App::set_captured(bool captured) {
+    captured_ = captured;
+    if (options_.platform != nullptr) options_.platform->capture_mouse(captured);
+}
+
+void App::change_settings(const Input& input, Actions& actions) {
+    actions = actions_of(input);
+    if (input.was_pressed(Key::MouseLook)) look_toggled_ = !look_toggled_;
+    if (input.was_pressed(Key::Help)) panels_.help_open = !panels_.help_open;
+    if (input.was_pressed(Key::Settings)) panels_.settings_open = !panels_.settings_open;
+    // A panel that opens is there to be clicked.
+    if ((input.was_pressed(Key::Help) && panels_.help_open) ||
+        (input.was_pressed(Key::Settings) && panels_.settings_open))
+        look_toggled_ = false;
+    if (input.was_pressed(Key::Release)) {
+        if (!look_toggled_) panels_.help_open = panels_.settings_open = false;
+        look_toggled_ = false;
+    }
+    if (input.was_pressed(Key::Overlay)) settings_.overlay = !settings_.overlay;
+    set_captured(look_toggled_ || input.is_down(Key::MouseLookHold));
+    fly(settings_, input, captured_);
+    tools_.choose(input);
+
+    if (panels_.settings_open && scenes_.empty()) scenes_ = builtin_scenes();
+    const Settings before = settings_;
+    panels_.draw({.settings = settings_,
+                  .brush = tools_.brush,
+                  .defaults = scene_.settings,
+                  .scene = scene_.name,
+                  .scenes = scenes_,
+                  .paused = clock_.paused(),
+                  .can_undo = history_.can_undo(),
+                  .can_redo = history_.can_redo()},
+                 actions);
+    if (!same_camera(before, settings_)) renderer_->reset_history();  // a jump, not a flight
+}
+
+void App::run_actions(const Actions& actions) {
+    if (actions.faster) clock_.faster();
+    if (actions.slower) clock_.slower();
+    if (actions.toggle_pause) clock_.toggle_paused();
+    if (actions.step) clock_.single_step();
+    try {
+        if (actions.reload) reload();
+        if (actions.load_scene) load(*actions.load_scene);
+    } catch (const Error& error) {
+        say(error.what());
+    }
+    if (!actions.undo && !actions.redo) return;
+    tools_.end_stroke();
+    if (const auto changes = actions.undo ? history_.undo() : history_.redo()) simulation_->write(*changes);
+}
+
+void App::edit(const Input& input) {
+    const glm::vec2 at_px = captured_ ? glm::vec2(input.size_px) / 2.f : input.mouse_px;
+    const View view(settings_, input.size_px);
+    if (input.was_pressed(MouseButton::Middle))
+        tools_.take_material(renderer_->pick(*simulation_, settings_, input.size_px, at_px, false));
+    Pick pick;
+    if (tools_.needs_pick(input)) {
+        pick =
+            renderer_->pick(*simulation_, settings_, input.size_px, at_px, tools_.brush.goes_through_water());
+        // An eye under water would meet nothing but the water around it.
+        if (pick.hit && pick.normal == glm::ivec3(0) && is_water(pick.byte))
+            pick = renderer_->pick(*simulation_, settings_, input.size_px, at_px, true);
+    }
+    const Tools::Stroke stroke =
+        tools_.use(input, pick, {view.eye_vox(), view.dir_through(at_px)}, simulation_->tick());
+    if (stroke.begins) history_.begin_stroke();
+    for (const Edit& e : stroke.edits) simulation_->apply(e, history_);
+    if (tools_.aim()) {
+        const Brush& brush = tools_.brush;
+        draw_outline(view, brush, *tools_.aim(), tools_.removing(), outline_color(brush));
+    }
+    if (captured_) draw_cross();
+}
+
+glm::vec3 App::outline_color(const Brush& brush) const {
+    if (brush.material == MATERIAL_WATER) return settings_.water_color;
+    return scene_.materials[brush.material].base_color;
+}
+
+void App::advance(const Input& input) {
+    int ticks = settings_.ticks_per_frame;
+    if (options_.interactive) {
+        const int by_clock = clock_.ticks_for(input.dt_s, settings_.ticks_per_second);
+        if (ticks == 0 || clock_.paused()) ticks = by_clock;
+    }
+    simulation_->step(ticks, settings_);
+    rate_ticks_ += static_cast<std::uint64_t>(ticks);
+    const double since_s = now_s() - rate_start_s_;
+    if (since_s < rate_window_s) return;
+    ticks_per_s_ = static_cast<double>(rate_ticks_) / since_s;
+    // Timer results lag by some frames: near enough over half a second.
+    const double total_ms = tick_ms_total(timers_);
+    if (rate_ticks_ > 0)
+        clock_.set_tick_cost_ms((total_ms - rate_tick_ms_) / static_cast<double>(rate_ticks_));
+    rate_tick_ms_ = total_ms;
+    rate_ticks_ = 0;
+    rate_start_s_ = now_s();
+}
+
+void App::draw_overlays(const Input& input) {
+    const double frame_ms = input.dt_s * 1000;
+    frame_ms_ = frame_ms_ <= 0 ? frame_ms : frame_ms_ + (frame_ms - frame_ms_) / 8;
+    if (settings_.overlay)
+        draw_overlay({.frame_ms = frame_ms_,
+                      .passes = timers_.passes(),
+                      .ticks_per_s = ticks_per_s_,
+                      .ticks_per_s_wanted = settings_.ticks_per_second * clock_.speed(),
+                      .paused = clock_.paused(),
+                      .tick = simulation_->tick(),
+                      .size_vox = simulation_->size_vox(),
+                      .census = simulation_->recent_census(),
+                      .samples = renderer_->samples(),
+                      .rejected_samples = rejected_samples_,
+                      .brush = tools_.brush});
+    if (!shader_error_.empty())
+        draw_message(shader_error_, true);
+    else if (now_s() < message_until_s_)
+        draw_message(message_, false);
+}
+
+}  // namespace tarn
