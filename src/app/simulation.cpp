@@ -34,9 +34,9 @@ glm::ivec3 size_within_limits(glm::ivec3 size_vox) {
     return size_vox;
 }
 
-void add(Census& sum, std::uint8_t byte, std::uint64_t voxels) {
-    sum.voxels[material_of(byte)] += voxels;
-    sum.water_quanta += voxels * quanta_of(byte);
+void add(Census& sum, const Census& more) {
+    for (std::size_t id = 0; id < sum.voxels.size(); ++id) sum.voxels[id] += more.voxels[id];
+    sum.water_quanta += more.water_quanta;
 }
 
 }  // namespace
@@ -215,11 +215,7 @@ void Simulation::write(const std::vector<CellChange>& changes) {
             const glm::ivec3 at = sorted[i].second->cell - region.min_vox;
             after[at.x + region.size().x * (at.y + region.size().y * at.z)] = sorted[i].second->after;
         }
-        for (std::size_t k = 0; k < after.size(); ++k) {
-            if (before[k] == after[k]) continue;
-            add(p.edit_totals.removed, before[k], 1);
-            add(p.edit_totals.placed, after[k], 1);
-        }
+        for (std::size_t k = 0; k < after.size(); ++k) count_change(before[k], after[k], p.edit_totals);
         if (after != before) p.write_region(region, before, after);
     }
     p.update_bricks();
@@ -232,12 +228,8 @@ void Simulation::write_cells(const Cells& cells) {
     p.load(cells);
     p.census = take_census(cells);
     p.census_version = p.version;
-    for (std::size_t id = 0; id < before.voxels.size(); ++id) {
-        p.edit_totals.removed.voxels[id] += before.voxels[id];
-        p.edit_totals.placed.voxels[id] += p.census.voxels[id];
-    }
-    p.edit_totals.removed.water_quanta += before.water_quanta;
-    p.edit_totals.placed.water_quanta += p.census.water_quanta;
+    add(p.edit_totals.removed, before);
+    add(p.edit_totals.placed, p.census);
 }
 
 std::uint8_t Simulation::read_cell(glm::ivec3 cell) const {

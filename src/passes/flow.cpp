@@ -4,10 +4,18 @@
 
 namespace tarn {
 
-FlowPass::FlowPass()
+FlowPass::FlowPass(const Counts& start)
     : spring_({.label = "spring", .compute = "pass/flow.comp", .defines = {{"SPRING", "1"}}}),
       drain_({.label = "drain", .compute = "pass/flow.comp"}),
-      counters_("flow counters", 8 * sizeof(std::uint32_t)) {}
+      counters_("flow counters", 8 * sizeof(std::uint32_t)) {
+    std::vector<std::uint32_t> raw;
+    for (const std::uint64_t count : {start.sprung_water_quanta, start.drained_water_quanta,
+                                      start.sprung_sand_voxels, start.drained_sand_voxels}) {
+        raw.push_back(static_cast<std::uint32_t>(count));
+        raw.push_back(static_cast<std::uint32_t>(count >> 32));
+    }
+    counters_.upload(std::span<const std::uint32_t>(raw));
+}
 
 void FlowPass::record_springs(const std::vector<Spring>& springs, const Inputs& in,
                               const Outputs& out) const {

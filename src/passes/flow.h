@@ -25,9 +25,11 @@ class FlowPass {
     };
     struct Counts {
         std::uint64_t sprung_water_quanta, drained_water_quanta, sprung_sand_voxels, drained_sand_voxels;
+        bool operator==(const Counts&) const = default;
     };
 
-    FlowPass();
+    FlowPass() : FlowPass(Counts{}) {}
+    explicit FlowPass(const Counts& start);
     // One after the other, in the order of the list. Regions are clipped to the world.
     void record_springs(const std::vector<Spring>& springs, const Inputs& in, const Outputs& out) const;
     void record_drains(const std::vector<Drain>& drains, const Inputs& in, const Outputs& out) const;

@@ -1,0 +1,196 @@
+// What rays skip by equals a brute-force count over the cells, after loading, ticks and edits; and exactly
+// the bricks whose cells changed are stamped.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "app/simulation.h"
+#include "core/error.h"
+#include "gpu/gl_test.h"
+#include "gpu/worlds.h"
+#include "shared/bindings.h"
+
+namespace tarn {
+namespace {
+
+using BricksTest = GlTest;
+
+glm::ivec3 bricks_in(glm::ivec3 size_vox) {
+    return (size_vox + 7) / 8;
+}
+
+template <typename Act>
+void for_cells(glm::ivec3 size, const Act& act) {
+    for (int z = 0; z < size.z; ++z)
+        for (int y = 0; y < size.y; ++y)
+            for (int x = 0; x < size.x; ++x) act(glm::ivec3(x, y, z));
+}
+
+int flat(glm::ivec3 at, glm::ivec3 size) {
+    return at.x + size.x * (at.y + size.y * at.z);
+}
+
+struct Obstacles {  // bricks, x fastest
+    std::vector<char> matter, not_water;
+};
+
+Obstacles find_obstacles(const Cells& cells) {
+    const glm::ivec3 size = bricks_in(cells.size_vox());
+    Obstacles found;
+    found.matter.assign(size.x * size.y * size.z, 0);
+    found.not_water = found.matter;
+    for_cells(size * 8, [&](glm::ivec3 cell) {
+        const int brick = flat(cell / 8, size);
+        if (cells.get(cell, MATERIAL_AIR) != MATERIAL_AIR) found.matter[brick] = 1;
+        if (cells.get(cell, MATERIAL_AIR) != MATERIAL_WATER_FULL) found.not_water[brick] = 1;
+    });
+    return found;
+}
+
+int nearest(glm::ivec3 from, glm::ivec3 size, const std::vector<char>& obstacle, int start) {
+    int best = start;
+    for_cells(size, [&](glm::ivec3 brick) {
+        const glm::ivec3 d = glm::abs(brick - from);
+        if (obstacle[flat(brick, size)]) best = std::min(best, std::max({d.x, d.y, d.z}));
+    });
+    return best;
+}
+
+void expect_right_distances(const Simulation& simulation, const Cells& cells) {
+    const glm::ivec3 size = bricks_in(cells.size_vox());
+    ASSERT_EQ(simulation.brick_distance().size(), size);
+    std::vector<std::uint8_t> got(2 * size.x * size.y * size.z);
+    simulation.brick_distance().download(std::span<std::uint8_t>(got), GL_RG_INTEGER, GL_UNSIGNED_BYTE);
+    const Obstacles obstacles = find_obstacles(cells);
+    for_cells(size, [&](glm::ivec3 brick) {
+        const glm::ivec3 end = glm::min(brick + 1, size - brick);
+        const int to_outside = std::min({end.x, end.y, end.z, BRICK_DISTANCE_MAX});
+        const int r = nearest(brick, size, obstacles.matter, BRICK_DISTANCE_MAX);
+        const int g = nearest(brick, size, obstacles.not_water, to_outside);
+        const int at = 2 * flat(brick, size);
+        ASSERT_TRUE(got[at] == r && got[at + 1] == g)
+            << fmt::format("brick ({}, {}, {}): GPU {} {}, counted {} {}", brick.x, brick.y, brick.z, got[at],
+                           got[at + 1], r, g);
+    });
+}
+
+// The bricks in which `before` and `after` differ are stamped with the simulation's version; no others are.
+void expect_right_stamps(const Simulation& simulation, const Cells& before, const Cells& after) {
+    const glm::ivec3 size = bricks_in(before.size_vox());
+    std::vector<std::uint32_t> stamps(size.x * size.y * size.z);
+    simulation.brick_changed().download(std::span<std::uint32_t>(stamps), GL_RED_INTEGER, GL_UNSIGNED_INT);
+    std::vector<char> changed(stamps.size(), 0);
+    for_cells(before.size_vox(), [&](glm::ivec3 cell) {
+        if (before.at(cell) != after.at(cell)) changed[flat(cell / 8, size)] = 1;
+    });
+    for (std::size_t i = 0; i < stamps.size(); ++i)
+        ASSERT_EQ(stamps[i] == static_cast<std::uint32_t>(simulation.version()), changed[i] != 0)
+            << "brick " << i;
+}
+
+Scene sparse_scene(glm::ivec3 size_vox) {
+    Scene scene;
+    scene.cells = Cells(size_vox);
+    const glm::ivec3 high = glm::max(size_vox * 3 / 4, glm::ivec3(1)) - 1;
+    scene.cells.at(high) = MATERIAL_WATER_FULL;
+    scene.cells.at({high.x, high.y, 0}) = MATERIAL_SAND;
+    return scene;
+}
+
+TEST_F(BricksTest, distances_equal_brute_force_as_things_move) {
+    for (const glm::ivec3 size : {glm::ivec3(1, 1, 1), glm::ivec3(7, 13, 5), glm::ivec3(61, 37, 45),
+                                  glm::ivec3(64, 48, 64), glm::ivec3(330, 20, 9), glm::ivec3(8, 300, 3)}) {
+        SCOPED_TRACE(fmt::format("{}x{}x{}", size.x, size.y, size.z));
+        const Scene scene = sparse_scene(size);
+        gl::Timers timers;
+        Simulation simulation(scene, timers);
+        expect_right_distances(simulation, scene.cells);
+        Cells before = scene.cells;
+        for (int i = 0; i < 12; ++i) {
+            simulation.step(1, Settings{});
+            const Cells after = simulation.read_cells();
+            expect_right_stamps(simulation, before, after);
+            if (i % 3 == 0) expect_right_distances(simulation, after);
+            if (HasFatalFailure()) return;
+            before = after;
+        }
+        simulation.step(20, Settings{});
+        expect_right_distances(simulation, simulation.read_cells());
+    }
+}
+
+TEST_F(BricksTest, water_distances_end_at_the_worlds_border_and_at_cut_bricks) {
+    for (const glm::ivec3 size : {glm::ivec3(64, 64, 64), glm::ivec3(61, 64, 64), glm::ivec3(72, 40, 56)}) {
+        Scene scene;
+        scene.cells = Cells(size);
+        std::fill(scene.cells.bytes().begin(), scene.cells.bytes().end(),
+                  static_cast<std::uint8_t>(MATERIAL_WATER_FULL));
+        gl::Timers timers;
+        Simulation simulation(scene, timers);
+        expect_right_distances(simulation, scene.cells);
+        Cells holed = scene.cells;
+        holed.at({20, 20, 20}) = water_cell(15);
+        simulation.write_cells(holed);
+        expect_right_distances(simulation, holed);
+    }
+}
+
+TEST_F(BricksTest, edits_undo_and_loading_keep_them_right) {
+    const Scene scene = sparse_scene({61, 37, 45});
+    gl::Timers timers;
+    Simulation simulation(scene, timers);
+    EditHistory history;
+    Cells before = scene.cells;
+    const auto look = [&] {
+        const Cells after = simulation.read_cells();
+        expect_right_stamps(simulation, before, after);
+        expect_right_distances(simulation, after);
+        before = after;
+    };
+    const Edit edits[] = {
+        {.center_vox = {30, 20, 20}, .radius_vox = 9, .material = MATERIAL_WATER},
+        {.center_vox = {60, 36, 44}, .radius_vox = 4, .material = MATERIAL_STONE},
+        {.shape = BrushShape::Cube, .center_vox = {5, 5, 5}, .radius_vox = 7, .material = MATERIAL_SAND},
+        {.center_vox = {30, 20, 20}, .radius_vox = 12, .material = MATERIAL_AIR},
+        {.center_vox = {-90, 20, 20}, .radius_vox = 12, .material = MATERIAL_STONE},
+    };
+    for (const Edit& edit : edits) {
+        history.begin_stroke();
+        const std::uint64_t version = simulation.version();
+        simulation.apply(edit, history);
+        EXPECT_EQ(simulation.version() > version, edit.center_vox.x >= 0);
+        if (simulation.version() > version) look();
+    }
+    EXPECT_NE(hash_of(before), hash_of(scene.cells));
+    while (const auto changes = history.undo()) {
+        simulation.write(*changes);
+        look();
+        if (HasFatalFailure()) return;
+    }
+    EXPECT_TRUE(same_cells(before, scene.cells)) << "undo leads back";
+    const auto redo = history.redo();
+    ASSERT_TRUE(redo.has_value());
+    simulation.write(*redo);
+    look();
+}
+
+TEST_F(BricksTest, single_cells_are_read_back) {
+    Scene scene;
+    scene.cells = make_soup({7, 13, 5}, Soup::AllBytes, 3);
+    gl::Timers timers;
+    const Simulation simulation(scene, timers);
+    for_cells({7, 13, 5},
+              [&](glm::ivec3 cell) { ASSERT_EQ(simulation.read_cell(cell), scene.cells.at(cell)); });
+}
+
+TEST_F(BricksTest, a_world_beyond_the_drivers_limits_is_an_error) {
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &most);
+    Scene scene;
+    scene.cells = Cells({most + 1, 1, 1});
+    gl::Timers timers;
+    EXPECT_THROW(Simulation(scene, timers), Error);
+}
+
+}  // namespace
+}  // namespace tarn

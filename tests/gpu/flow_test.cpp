@@ -1,0 +1,118 @@
+// Springs and drains on the GPU equal the serial reference in every byte and every count.
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "app/simulation.h"
+#include "gpu/gl_test.h"
+#include "gpu/worlds.h"
+#include "passes/flow.h"
+#include "reference/flow.h"
+#include "reference/water_block.h"
+#include "world/schedule.h"
+
+namespace tarn {
+namespace {
+
+using FlowTest = GlTest;
+
+FlowTally tally_of(const FlowTotals& t) {
+    return {t.sprung_water_quanta, t.drained_water_quanta, t.sprung_sand_voxels, t.drained_sand_voxels};
+}
+
+void expect_equal_run(const Scene& scene, std::uint64_t first_tick, int ticks) {
+    gl::Timers timers;
+    Simulation simulation(scene, timers);
+    simulation.set_tick(first_tick);
+    const Settings settings;
+    Cells reference = scene.cells;
+    FlowTally tally;
+    const Census start = take_census(scene.cells);
+    for (int i = 0; i < ticks; ++i) {
+        simulation.step(1, settings);
+        const auto tick = static_cast<std::uint32_t>(first_tick + i);
+        springs_tick(reference, scene.springs, scene.seed, tick, tally);
+        water_block_tick(reference, scene.seed, tick, settings.film_threshold);
+        drains_tick(reference, scene.drains, tally);
+        ASSERT_TRUE(same_cells(simulation.read_cells(), reference)) << "after tick " << first_tick + i;
+        ASSERT_EQ(tally_of(simulation.flow_totals()), tally) << "after tick " << first_tick + i;
+        const Census now = take_census(reference);
+        ASSERT_EQ(now.water_quanta + tally.drained_water_quanta,
+                  start.water_quanta + tally.sprung_water_quanta);
+        ASSERT_EQ(now.voxels[MATERIAL_SAND] + tally.drained_sand_voxels,
+                  start.voxels[MATERIAL_SAND] + tally.sprung_sand_voxels);
+    }
+}
+
+Scene flowing_scene(glm::ivec3 size_vox, Soup soup) {
+    Scene scene;
+    scene.seed = 11;
+    scene.cells = make_soup(size_vox, soup, 21);
+    const glm::ivec3 top = size_vox - 1;
+    scene.springs = {
+        {.region = {{0, top.y, 0}, {3, top.y + 1, 2}}, .material = MATERIAL_WATER, .per_tick = 7},
+        {.region = {{0, top.y / 2, 0}, size_vox}, .material = MATERIAL_WATER, .per_tick = 1000},
+        {.region = {{0, 0, 0}, {2, 2, 2}}, .material = MATERIAL_WATER, .per_tick = 0x80000000u},
+        {.region = {top, size_vox}, .material = MATERIAL_SAND, .per_tick = 1},
+        {.region = {{0, top.y, 0}, size_vox}, .material = MATERIAL_SAND, .per_tick = 2},
+        {.region = {{-5, -5, -5}, {1, 1, 1}}, .material = MATERIAL_WATER, .per_tick = 3},
+        {.region = {size_vox, size_vox + 4}, .material = MATERIAL_WATER, .per_tick = 3},
+    };
+    scene.drains = {{.region = {{0, 0, 0}, {top.x, 1, 2}}}, {.region = {{-3, 0, 0}, {1, 99, 99}}}};
+    return scene;
+}
+
+TEST_F(FlowTest, equals_reference_in_bytes_and_counts) {
+    for (const glm::ivec3 size :
+         {glm::ivec3(1, 1, 1), glm::ivec3(7, 13, 5), glm::ivec3(31, 17, 22), glm::ivec3(1, 40, 1)})
+        for (const Soup soup : {Soup::AllBytes, Soup::Layers}) {
+            SCOPED_TRACE(fmt::format("{}x{}x{}", size.x, size.y, size.z));
+            expect_equal_run(flowing_scene(size, soup), 0, 60);
+            if (HasFatalFailure()) return;
+        }
+}
+
+TEST_F(FlowTest, equals_reference_across_the_tick_counters_wrap) {
+    expect_equal_run(flowing_scene({9, 10, 11}, Soup::Matter), (std::uint64_t{1} << 32) - 10, 20);
+}
+
+TEST_F(FlowTest, counts_pass_32_bits) {
+    constexpr std::uint64_t near = 0xfffffff0u;
+    const FlowPass flow(FlowPass::Counts{near, near + (std::uint64_t{5} << 32), near, near});
+    gl::Texture cells({.label = "cells", .format = GL_R8UI, .size = {8, 8, 8}});
+    gl::Texture changed({.label = "changed", .format = GL_R32UI, .size = {1, 1, 1}});
+    cells.clear();
+    const FlowPass::Inputs in{.seed = 1, .tick = 0, .version = 1};
+    const FlowPass::Outputs out{.cells = cells, .brick_changed = changed};
+    const Box low{{0, 0, 0}, {8, 4, 8}};
+    const Box high{{0, 4, 0}, {8, 8, 8}};
+    flow.record_springs({{.region = low, .material = MATERIAL_WATER, .per_tick = 0x80000000u},
+                         {.region = high, .material = MATERIAL_SAND, .per_tick = 0x80000000u}},
+                        in, out);
+    flow.record_drains({{.region = {{-1, -1, -1}, {9, 9, 9}}}}, in, out);
+    constexpr std::uint64_t voxels = 8 * 4 * 8;
+    EXPECT_EQ(flow.counts(),
+              (FlowPass::Counts{near + 16 * voxels, near + (std::uint64_t{5} << 32) + 16 * voxels,
+                                near + voxels, near + voxels}));
+}
+
+TEST_F(FlowTest, census_arrives_without_being_waited_for) {
+    Scene scene;
+    scene.cells = make_soup({61, 37, 45}, Soup::AllBytes, 5);
+    gl::Timers timers;
+    Simulation simulation(scene, timers);
+    EXPECT_EQ(simulation.recent_census(), take_census(scene.cells));
+    simulation.step(30, Settings{});
+    const Census now = take_census(simulation.read_cells());
+    EXPECT_NE(now, take_census(scene.cells)) << "amounts of water change";
+    const auto start = std::chrono::steady_clock::now();
+    double now_s = 0;
+    while (simulation.recent_census() != now && now_s < 20) {
+        now_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        simulation.refresh_census(now_s);
+    }
+    EXPECT_EQ(simulation.recent_census(), now);
+}
+
+}  // namespace
+}  // namespace tarn
