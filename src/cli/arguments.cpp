@@ -1,0 +1,151 @@
+#include "cli/arguments.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+
+#include "core/error.h"
+
+namespace tarn {
+
+namespace {
+
+constexpr int picture_side_max_px = 16384;
+
+glm::ivec2 parse_size(const std::string& text) {
+    const char* const end = text.data() + text.size();
+    glm::ivec2 size(0);
+    const auto first = std::from_chars(text.data(), end, size.x);
+    bool ok = first.ec == std::errc{} && first.ptr != end && *first.ptr == 'x';
+    if (ok) {
+        const auto second = std::from_chars(first.ptr + 1, end, size.y);
+        ok = second.ec == std::errc{} && second.ptr == end;
+    }
+    if (!ok || std::min(size.x, size.y) < 1 || std::max(size.x, size.y) > picture_side_max_px)
+        fail("--size {}: not a picture size; allowed: WIDTHxHEIGHT, each 1 to {}", text, picture_side_max_px);
+    return size;
+}
+
+void apply_camera(const std::string& text, Settings& settings) {
+    std::vector<std::string> parts;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t comma = std::min(text.find(',', begin), text.size());
+        parts.push_back(text.substr(begin, comma - begin));
+        begin = comma + 1;
+    }
+    if (parts.size() != 5 && parts.size() != 6)
+        fail("--camera {}: {} numbers given; allowed: x,y,z,yaw,pitch or x,y,z,yaw,pitch,fov", text,
+             parts.size());
+    try {
+        set_setting(settings, "camera_position_vox", parts[0] + "," + parts[1] + "," + parts[2]);
+        set_setting(settings, "camera_yaw_deg", parts[3]);
+        set_setting(settings, "camera_pitch_deg", parts[4]);
+        if (parts.size() == 6) set_setting(settings, "camera_fov_deg", parts[5]);
+    } catch (const Error& error) {
+        fail("--camera {}: {}", text, error.what());
+    }
+}
+
+// CLI11 spreads its help over lines; an error is one.
+std::string one_line(std::string text) {
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    while (!text.empty() && text.back() == ' ') text.pop_back();
+    return text;
+}
+
+}  // namespace
+
+std::optional<Arguments> parse_arguments(int argc, char** argv) {
+    Arguments arguments;
+    std::string size;
+    CLI::App app{"Tarn: a path-traced voxel sandbox with water as its heart.", "tarn"};
+    app.require_subcommand(1);
+    app.footer("Exit codes: 0; 1 a check failed; 2 bad input. `tarn COMMAND --help` explains a command.");
+    app.set_version_flag("--version", TARN_VERSION);
+
+    const auto scene_options = [&](CLI::App* command, bool required) {
+        auto* option = command->add_option(
+            "--scene", arguments.scene, "Built-in name (see `tarn scenes`) or a scene file ending in .json");
+        if (required) option->required();
+        command->add_option("--seed", arguments.seed, "Seed in place of the scene's");
+        command->add_option("--set", arguments.set, "key=value, repeatable; see `tarn settings`")
+            ->allow_extra_args(false);
+    };
+    const auto picture_options = [&](CLI::App* command) {
+        command->add_option("--size", size, "Picture size in pixels, WIDTHxHEIGHT");
+        command->add_option("--quality", arguments.quality,
+                            "Preset: baseline, fast, balanced, quality, exact");
+    };
+
+    CLI::App* play =
+        app.add_subcommand("play", "Open the window (headless: render the scene to tarn-SCENE.png)");
+    scene_options(play, false);
+    picture_options(play);
+    play->add_option("--stats", arguments.stats,
+                     "Write counts, times and settings as JSON when the window closes");
+
+    CLI::App* render = app.add_subcommand("render", "Make a picture without a window");
+    scene_options(render, true);
+    picture_options(render);
+    render->add_option("--out", arguments.out, "F.png (tone-mapped sRGB) or F.exr (linear radiance)")
+        ->required();
+    render->add_option("--ticks", arguments.ticks, "Simulation ticks before the first frame");
+    auto* frames =
+        render
+            ->add_option("--frames", arguments.frames, "Frames, with history and filter; the last is written")
+            ->check(CLI::Range(1, 1000000));
+    auto* exact =
+        render->add_flag("--exact", arguments.exact, "The unbiased mean over the pixel; quality exact");
+    exact->excludes(frames);
+    render->add_option("--spp", arguments.spp, "Samples per pixel of --exact (64)")
+        ->check(CLI::Range(1, 100000000))
+        ->needs(exact);
+    render->add_option("--camera", arguments.camera, "x,y,z,yaw,pitch[,fov] in place of the scene's");
+    render->add_option("--stats", arguments.stats, "Write counts, times and settings as JSON");
+
+    CLI::App* simulate = app.add_subcommand("simulate", "Run the simulation without a picture");
+    scene_options(simulate, true);
+    simulate->add_option("--ticks", arguments.ticks, "Simulation ticks")->required();
+    simulate->add_option("--cells", arguments.cells, "Write material ids as .npy: uint8, shape (z, y, x)");
+    simulate->add_option("--stats", arguments.stats, "Write counts, times and settings as JSON");
+
+    app.add_subcommand("scenes", "List the built-in scenes");
+    app.add_subcommand("settings", "List every setting: key, range, default, help");
+    app.add_subcommand("doctor", "Check the driver and run a self-test; exit code 0 or 1");
+
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& help) {
+        app.exit(help);
+        return std::nullopt;
+    } catch (const CLI::ParseError& error) {
+        fail("{}; `tarn --help` lists what is allowed", one_line(error.what()));
+    }
+    arguments.command = app.get_subcommands().front()->get_name();
+    if (!size.empty()) arguments.size_px = parse_size(size);
+    return arguments;
+}
+
+Scene scene_of(const Arguments& arguments) {
+    Settings base;
+    apply_quality(base, Quality::Balanced);
+    if (arguments.quality) set_setting(base, "quality", *arguments.quality);
+    if (arguments.exact) {
+        if (arguments.quality && base.quality != Quality::Exact)
+            fail("--quality {}: --exact implies quality exact; leave one of them out", *arguments.quality);
+        apply_quality(base, Quality::Exact);
+    }
+    // Assignments are tried before the scene is built: a typing error should not cost a terrain.
+    Settings trial = base;
+    for (const std::string& assignment : arguments.set) set_assignment(trial, assignment);
+    if (!arguments.camera.empty()) apply_camera(arguments.camera, trial);
+    if (arguments.exact && trial.history != History::Exact)
+        fail("--set: --exact needs history=exact; render without --exact for another");
+
+    Scene scene = load_scene(arguments.scene, base, arguments.seed);
+    for (const std::string& assignment : arguments.set) set_assignment(scene.settings, assignment);
+    if (!arguments.camera.empty()) apply_camera(arguments.camera, scene.settings);
+    return scene;
+}
+
+}  // namespace tarn

@@ -1,0 +1,35 @@
+// Arguments of the subcommands, checked; knows no GL.
+#pragma once
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/settings.h"
+#include "world/scene.h"
+
+namespace tarn {
+
+struct Arguments {
+    std::string command;
+    std::string scene = "lake";
+    glm::ivec2 size_px{0};  // 0: chosen by the command
+    std::string out, stats, cells, camera;
+    std::optional<std::string> quality;
+    std::vector<std::string> set;
+    std::uint64_t ticks = 0;
+    int frames = 1;
+    bool exact = false;
+    int spp = 64;
+    std::optional<std::uint32_t> seed;
+};
+
+// Nothing where help was asked for and printed. Throws Error naming the argument, the reason and what is
+// allowed.
+std::optional<Arguments> parse_arguments(int argc, char** argv);
+
+// The scene that the arguments name, with their settings: preset, scene, --set, --camera, in this order.
+Scene scene_of(const Arguments& arguments);
+
+}  // namespace tarn

@@ -1,0 +1,9 @@
+// `tarn doctor`: what the driver offers against what Tarn needs, and a self-test.
+#pragma once
+
+namespace tarn {
+
+// Prints a line per check. 0: all good; 1: a check failed. Throws Error where there is no driver at all.
+int run_doctor();
+
+}  // namespace tarn
