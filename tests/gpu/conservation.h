@@ -1,0 +1,44 @@
+// The books of a built-in scene: water (quanta) and sand (voxels) against what springs made and drains took.
+#pragma once
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "app/simulation.h"
+#include "core/assets.h"
+
+namespace tarn {
+
+inline std::vector<std::string> built_in_scenes() {
+    std::vector<std::string> names;
+    for (const std::string& path : list_assets("assets/scenes")) {
+        const std::size_t start = path.find_last_of('/') + 1;
+        names.push_back(path.substr(start, path.find_last_of('.') - start));
+    }
+    return names;
+}
+
+// Runs `ticks` ticks, looking every `interval`: count = initial + sprung - drained + placed - removed,
+// exactly, and every other material as it was.
+inline void expect_kept_books(Simulation& simulation, const Settings& settings, const Census& initial,
+                              int ticks, int interval) {
+    for (int done = 0; done < ticks; done += interval) {
+        simulation.step(interval, settings);
+        const Census now = take_census(simulation.read_cells());
+        const FlowTotals flow = simulation.flow_totals();
+        const EditTotals& edits = simulation.edit_totals();
+        ASSERT_EQ(now.water_quanta, initial.water_quanta + flow.sprung_water_quanta -
+                                        flow.drained_water_quanta + edits.placed.water_quanta -
+                                        edits.removed.water_quanta)
+            << "water after tick " << simulation.tick();
+        for (std::size_t id = 1; id < now.voxels.size(); ++id) {
+            if (id == MATERIAL_WATER) continue;
+            std::uint64_t expected = initial.voxels[id] + edits.placed.voxels[id] - edits.removed.voxels[id];
+            if (id == MATERIAL_SAND) expected += flow.sprung_sand_voxels - flow.drained_sand_voxels;
+            ASSERT_EQ(now.voxels[id], expected) << "material " << id << " after tick " << simulation.tick();
+        }
+    }
+}
+
+}  // namespace tarn

@@ -1,0 +1,60 @@
+// Nothing is lost or made: water and sand of every built-in scene, at every tick (BRIEF fault 1: water
+// appears and disappears). The long run is tests/soak.
+#include "gpu/conservation.h"
+
+#include "gpu/gl_test.h"
+#include "gpu/worlds.h"
+
+namespace tarn {
+namespace {
+
+using ConservationTest = GlTest;
+
+TEST_F(ConservationTest, fault_1_water_neither_appears_nor_disappears_in_any_scene) {
+    const std::vector<std::string> names = built_in_scenes();
+    ASSERT_FALSE(names.empty());
+    for (const std::string& name : names) {
+        SCOPED_TRACE(name);
+        const Scene scene = load_scene(name, Settings{});
+        gl::Timers timers;
+        Simulation simulation(scene, timers);
+        expect_kept_books(simulation, scene.settings, take_census(scene.cells), 500, 1);
+        const FlowTotals flow = simulation.flow_totals();
+        EXPECT_EQ(flow.sprung_water_quanta + flow.sprung_sand_voxels == 0, scene.springs.empty());
+        if (HasFatalFailure()) return;
+    }
+}
+
+TEST_F(ConservationTest, springs_drains_and_edits_balance) {
+    Scene scene;
+    scene.cells = make_soup({45, 40, 37}, Soup::Layers, 8);
+    scene.springs = {{.region = {{10, 38, 10}, {20, 40, 20}}, .material = MATERIAL_WATER, .per_tick = 777},
+                     {.region = {{30, 39, 10}, {33, 40, 14}}, .material = MATERIAL_SAND, .per_tick = 5}};
+    scene.drains = {{.region = {{0, 0, 0}, {45, 1, 9}}}};
+    gl::Timers timers;
+    Simulation simulation(scene, timers);
+    const Census initial = take_census(scene.cells);
+    EditHistory history;
+    for (int round = 0; round < 12; ++round) {
+        history.begin_stroke();
+        simulation.apply({.tick = simulation.tick(),
+                          .center_vox = {round * 4, 5 + round * 3, 36 - round * 3},
+                          .radius_vox = 6,
+                          .material = round % 3 == 0   ? std::uint8_t{MATERIAL_WATER}
+                                      : round % 3 == 1 ? std::uint8_t{MATERIAL_SAND}
+                                                       : std::uint8_t{MATERIAL_AIR},
+                          .overwrite = round % 2 == 0},
+                         history);
+        expect_kept_books(simulation, Settings{}, initial, 20, 4);
+        if (round % 4 == 3)
+            if (const auto changes = history.undo()) simulation.write(*changes);
+        expect_kept_books(simulation, Settings{}, initial, 2, 1);
+        if (HasFatalFailure()) return;
+    }
+    EXPECT_GT(simulation.flow_totals().sprung_water_quanta, 0u);
+    EXPECT_GT(simulation.flow_totals().drained_water_quanta, 0u);
+    EXPECT_GT(simulation.flow_totals().sprung_sand_voxels, 0u);
+}
+
+}  // namespace
+}  // namespace tarn
