@@ -34,7 +34,7 @@ class Random {
     std::uint32_t seed_, counter_ = 0;
 };
 
-enum class WorldKind { Sparse, Dense, Terrain, Amounts, Deep };
+enum class WorldKind { Sparse, Dense, Terrain, Amounts, Deep, Air };
 
 // Sparse: one solid voxel in 4000. Dense: four in ten, glass among them. Terrain: hills, a lake, a lake's
 // surface of all amounts. Amounts: water of every amount in every third voxel. Deep: full water with a few
@@ -70,6 +70,9 @@ inline Cells make_world(WorldKind kind, glm::ivec3 size, std::uint32_t seed) {
                             cell = amount;
                         else if (dice < 1500)
                             cell = MATERIAL_STONE;
+                        break;
+                    case WorldKind::Air:
+                        if (x + y + z == 0) cell = MATERIAL_STONE;
                         break;
                     case WorldKind::Deep:
                         cell = dice == 0 ? MATERIAL_STONE : static_cast<std::uint8_t>(MATERIAL_WATER_FULL);

@@ -8,15 +8,19 @@ struct Ray {
     ivec4 cell;  // w: medium
 };
 struct Result {
-    vec4 point;    // of the hit; w: t
-    ivec4 hit;     // kind, axis, beyond, byte
-    ivec4 cell;    // w: iterations
-    ivec4 previous;  // w: 1 when enter_world found the world
+    vec4 point;         // of the hit; w: t
+    ivec4 hit;          // kind, axis, beyond, byte
+    ivec4 cell;         // w: iterations
+    ivec4 previous;     // w: 1 when enter_world found the world
     vec4 start_origin;  // w: t_entry
     ivec4 start_cell;   // w: medium
 };
-layout(std430, binding = 0) readonly buffer Rays { Ray rays[]; };
-layout(std430, binding = 1) writeonly buffer Results { Result results[]; };
+layout(std430, binding = 0) readonly buffer Rays {
+    Ray rays[];
+};
+layout(std430, binding = 1) writeonly buffer Results {
+    Result results[];
+};
 uniform int count;
 uniform bool from_eye;  // starts with enter_world, ignoring cell and medium
 
