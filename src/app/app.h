@@ -45,7 +45,8 @@ class App {
     Renderer& renderer() { return *renderer_; }
     gl::Timers& timers() { return timers_; }
 
-    // app/stats.h's JSON with `frames` and, in a window, `brush` and `panels_shown`. Waits for the GPU.
+    // app/stats.h's JSON with `frames`, `gl_errors` and, in a window, `brush` and `panels_shown`. Waits for
+    // the GPU.
     std::string stats_json();
 
   private:

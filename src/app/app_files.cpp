@@ -6,6 +6,7 @@
 #include "app/stats.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "gl/context.h"
 
 namespace tarn {
 
@@ -26,6 +27,8 @@ std::string App::stats_json() {
                                                .rejected_samples = renderer_->rejected_samples(),
                                                .samples = frames_ > 0 ? renderer_->samples() : 0}));
     stats["frames"] = frames_;
+    gl::collect_errors();
+    stats["gl_errors"] = gl::debug_log().messages;
     if (options_.interactive) {
         stats["brush"] = {{"material", material_name(tools_.brush.material)},
                           {"shape", tools_.brush.shape == BrushShape::Sphere ? "sphere" : "cube"},

@@ -19,7 +19,11 @@ namespace tarn {
 
 namespace {
 
-constexpr glm::ivec2 default_render_px{640, 360};
+constexpr glm::ivec2 default_size_px{640, 360};
+
+glm::ivec2 picture_size(const Arguments& arguments) {
+    return arguments.size_px == glm::ivec2(0) ? default_size_px : arguments.size_px;
+}
 
 void check_outputs(const Arguments& arguments) {
     for (const std::string* path : {&arguments.out, &arguments.stats, &arguments.cells}) {
@@ -49,7 +53,7 @@ void write_picture(const std::string& path, const Renderer& renderer) {
 
 void render_to(const Arguments& arguments, Scene scene) {
     const Settings settings = scene.settings;
-    const glm::ivec2 size = arguments.size_px == glm::ivec2(0) ? default_render_px : arguments.size_px;
+    const glm::ivec2 size = picture_size(arguments);
     int frames = arguments.frames;
     if (arguments.exact)
         frames = (arguments.spp + settings.samples_per_pixel - 1) / settings.samples_per_pixel;
@@ -106,7 +110,7 @@ int run_play(Arguments arguments) {
         render_to(arguments, std::move(scene));
         return 0;
     }
-    const auto platform = make_window(arguments.size_px, "Tarn");
+    const auto platform = make_window(picture_size(arguments), "Tarn");
     const Settings settings = scene.settings;
     App app(std::move(scene), settings, {.interactive = true, .platform = platform.get()});
     while (const auto input = platform->next_frame()) platform->present(app.frame(*input));
