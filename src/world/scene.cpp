@@ -78,11 +78,8 @@ void read_materials(const JsonNode& list, MaterialTable& table) {
     }
 }
 
-std::string builtin_names() {
-    std::string names;
-    for (const SceneSummary& scene : builtin_scenes())
-        names += fmt::format("{}{}", names.empty() ? "" : ", ", scene.name);
-    return names;
+std::string name_of(const std::string& path) {
+    return fs::path(path).stem().string();
 }
 
 }  // namespace
@@ -93,7 +90,7 @@ Scene parse_scene(const std::string& text, const std::string& origin, const Sett
     root.allow_only(
         {"description", "size", "metres_per_voxel", "seed", "camera", "sun", "sky", "materials", "build"});
     Scene scene;
-    scene.name = fs::path(origin).stem().string();
+    scene.name = name_of(origin);
     scene.settings = base;
     const glm::ivec3 size = root.need("size").ivec3(1, world_side_max_vox);
     if (const auto node = root.find("description")) scene.description = printable(node->text());
@@ -119,22 +116,20 @@ Scene parse_scene(const std::string& text, const std::string& origin, const Sett
 Scene load_scene(const std::string& name_or_path, const Settings& base, std::optional<std::uint32_t> seed) {
     if (name_or_path.find('/') != std::string::npos || name_or_path.ends_with(".json"))
         return parse_scene(read_text_file(name_or_path), name_or_path, base, seed);
-    for (const SceneSummary& known : builtin_scenes()) {
-        if (known.name == name_or_path) {
-            const std::string path = fmt::format("{}{}.json", scene_folder, known.name);
-            return parse_scene(read_asset(path), path, base, seed);
-        }
+    std::string names;
+    for (const std::string& path : list_assets(scene_folder)) {
+        if (name_of(path) == name_or_path) return parse_scene(read_asset(path), path, base, seed);
+        names += name_of(path) + ", ";
     }
-    fail("scene {}: no built-in scene of this name; allowed: {}, or a path to a .json file",
-         printable(name_or_path), builtin_names());
+    fail("scene {}: no built-in scene of this name; allowed: {}or a path to a .json file",
+         printable(name_or_path), names);
 }
 
 std::vector<SceneSummary> builtin_scenes() {
     std::vector<SceneSummary> scenes;
     for (const std::string& path : list_assets(scene_folder)) {
-        const JsonNode root = JsonNode::parse(read_asset(path), path);
-        const auto description = root.find("description");
-        scenes.push_back({fs::path(path).stem().string(), description ? description->text() : ""});
+        const auto description = JsonNode::parse(read_asset(path), path).find("description");
+        scenes.push_back({name_of(path), description ? description->text() : ""});
     }
     return scenes;
 }
