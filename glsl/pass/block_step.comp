@@ -11,6 +11,7 @@ layout(r32ui, binding = 1) writeonly uniform uimage3D brick_changed;
 
 uniform ivec3 size_vox;
 uniform ivec3 offset_vox;      // 0 or 1 along each axis
+uniform uint seed;
 uniform uint tick_key;         // hash2(seed, tick)
 uniform int film_threshold;    // quanta
 uniform uint version;          // stamped on bricks whose cells change
@@ -67,6 +68,25 @@ void level(inout int a, inout int b, bool a_supported, bool b_supported) {
     }
 }
 
+// The four cells 0 1 / 2 3 of one layer. Where all stand, one tick in four (`as_one`) levels them at once: pairs
+// alone spread into diamonds, squares alone into squares.
+void level_layer(inout int c[4], bvec4 supported, bool as_one) {
+    int most = max(max(c[0], c[1]), max(c[2], c[3]));
+    int least = min(min(c[0], c[1]), min(c[2], c[3]));
+    if (as_one && all(supported) && is_open(most)) {
+        if (most - least <= 1) return;
+        int total = c[0] + c[1] + c[2] + c[3];
+        if (least > 0 || total >= 4 * film_threshold) {
+            for (int k = 0; k < 4; ++k) c[k] = (total + 3 - k) / 4;
+            return;
+        }
+    }
+    level(c[0], c[1], supported.x, supported.y);
+    level(c[2], c[3], supported.z, supported.w);
+    level(c[0], c[2], supported.x, supported.z);
+    level(c[1], c[3], supported.y, supported.w);
+}
+
 void main() {
     ivec3 block = 2 * ivec3(gl_GlobalInvocationID) - offset_vox;
     if (any(greaterThanEqual(block, size_vox))) return;
@@ -84,39 +104,52 @@ void main() {
 
     int before[8];
     int c[8];
-    bool movable = false;
+    bool has_water = false;
+    bool has_sand = false;
     for (int k = 0; k < 8; ++k) {
         ivec3 cell = corner + (k & 1) * a + (k >> 1 & 1) * b + ivec3(0, k >> 2, 0);
         bool inside = all(lessThan(uvec3(cell), uvec3(size_vox)));
         before[k] = inside ? content_of(imageLoad(cells, cell).r) : CLOSED;
         c[k] = before[k];
-        movable = movable || (c[k] > 0 && c[k] < CLOSED);
+        has_water = has_water || (c[k] > 0 && c[k] <= FULL);
+        has_sand = has_sand || c[k] == SAND;
     }
-    if (!movable) return;
+    if (!has_water && !has_sand) return;
 
     for (int k = 0; k < 4; ++k) fall(c[k + 4], c[k]);
 
-    slide(c[4], c[0], c[5], c[1]);
-    slide(c[5], c[1], c[4], c[0]);
-    slide(c[6], c[2], c[7], c[3]);
-    slide(c[7], c[3], c[6], c[2]);
-    slide(c[4], c[0], c[6], c[2]);
-    slide(c[6], c[2], c[4], c[0]);
-    slide(c[5], c[1], c[7], c[3]);
-    slide(c[7], c[3], c[5], c[1]);
-
-    // What the lower layer rests on is not seen here, but for the world's floor.
-    if (block.y == 0) {
-        level(c[0], c[1], true, true);
-        level(c[2], c[3], true, true);
-        level(c[0], c[2], true, true);
-        level(c[1], c[3], true, true);
+    if (has_sand) {
+        slide(c[4], c[0], c[5], c[1]);
+        slide(c[5], c[1], c[4], c[0]);
+        slide(c[6], c[2], c[7], c[3]);
+        slide(c[7], c[3], c[6], c[2]);
+        slide(c[4], c[0], c[6], c[2]);
+        slide(c[6], c[2], c[4], c[0]);
+        slide(c[5], c[1], c[7], c[3]);
+        slide(c[7], c[3], c[5], c[1]);
+        // Diagonally at half of all places, for good, so that piles are round; never between two closed columns.
+        uint ways = hash3(seed, uint(block.x + 1), uint(block.z + 1));
+        int way = mirror.x ^ mirror.y;
+        if ((ways >> way & 1u) != 0u && (is_open(c[5]) || is_open(c[6]))) {
+            slide(c[4], c[0], c[7], c[3]);
+            slide(c[7], c[3], c[4], c[0]);
+        }
+        if ((ways >> (1 - way) & 1u) != 0u && (is_open(c[4]) || is_open(c[7]))) {
+            slide(c[5], c[1], c[6], c[2]);
+            slide(c[6], c[2], c[5], c[1]);
+        }
     }
-    bvec4 supported = bvec4(supports(c[0]), supports(c[1]), supports(c[2]), supports(c[3]));
-    level(c[4], c[5], supported.x, supported.y);
-    level(c[6], c[7], supported.z, supported.w);
-    level(c[4], c[6], supported.x, supported.z);
-    level(c[5], c[7], supported.y, supported.w);
+
+    if (has_water) {
+        bool as_one = (h >> 3 & 3u) == 0u;
+        int lower[4] = int[4](c[0], c[1], c[2], c[3]);
+        // What the lower layer rests on is not seen here, but for the world's floor.
+        if (block.y == 0) level_layer(lower, bvec4(true), as_one);
+        int upper[4] = int[4](c[4], c[5], c[6], c[7]);
+        level_layer(upper, bvec4(supports(lower[0]), supports(lower[1]), supports(lower[2]), supports(lower[3])),
+                    as_one);
+        c = int[8](lower[0], lower[1], lower[2], lower[3], upper[0], upper[1], upper[2], upper[3]);
+    }
 
     for (int k = 0; k < 8; ++k) {
         if (c[k] == before[k]) continue;

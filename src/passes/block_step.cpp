@@ -12,6 +12,7 @@ void BlockStepPass::record(const Inputs& in, const Outputs& out) const {
     const glm::ivec3 offset = block_offset_vox(in.seed, in.tick, glm::ivec3(2));
     program_.set("size_vox", size);
     program_.set("offset_vox", offset);
+    program_.set("seed", in.seed);
     program_.set("tick_key", hash2(in.seed, in.tick));
     program_.set("film_threshold", in.film_threshold);
     program_.set("version", in.version);

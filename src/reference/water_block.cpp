@@ -41,6 +41,13 @@ class Block {
     std::uint8_t get(Column c, int layer) const { return cells_.get(place(c, layer), MATERIAL_WALL); }
     void set(Column c, int layer, std::uint8_t byte) { cells_.at(place(c, layer)) = byte; }
     bool on_floor() const { return first_.y == 0; }
+    // Whether sand may slide along the diagonal through `c`: true of half of all places, whatever the tick.
+    bool diagonal_allowed(std::uint32_t seed, Column c) const {
+        const glm::ivec3 at = place(c, 0) - first_;
+        const std::uint32_t ways =
+            hash3(seed, static_cast<std::uint32_t>(first_.x + 1), static_cast<std::uint32_t>(first_.z + 1));
+        return (ways & (at.x == at.z ? 1u : 2u)) != 0;
+    }
 
   private:
     glm::ivec3 place(Column c, int layer) const {
@@ -115,15 +122,49 @@ void level(Block& block, int layer, Column first, Column second, int film_thresh
     block.set(second, layer, byte_of_quanta(total - share));
 }
 
-void step(Block block, int film_threshold) {
+void slide_diagonally(Block& block, Column c, std::uint32_t seed) {
+    const Column opposite{1 - c.a, 1 - c.b};
+    const bool passable =
+        is_fluid(block.get({c.a, opposite.b}, 1)) || is_fluid(block.get({opposite.a, c.b}, 1));
+    if (!passable || !block.diagonal_allowed(seed, c)) return;
+    slide(block, c, opposite);
+    slide(block, opposite, c);
+}
+
+// Levels a layer's four cells together, if all are open, stand, and have enough to go round. Returns whether
+// they are done with.
+bool level_square(Block& block, int layer, int film_threshold) {
+    constexpr Column columns[] = {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
+    int total = 0;
+    int most = 0;
+    int least = full;
+    for (const Column c : columns) {
+        if (!is_fluid(block.get(c, layer)) || !is_supported(block, c, layer)) return false;
+        const int held = quanta(block.get(c, layer));
+        total += held;
+        most = std::max(most, held);
+        least = std::min(least, held);
+    }
+    if (most - least <= 1) return true;
+    if (least == 0 && total < 4 * film_threshold) return false;
+    int rest = total % 4;
+    for (const Column c : columns) block.set(c, layer, byte_of_quanta(total / 4 + (rest-- > 0 ? 1 : 0)));
+    return true;
+}
+
+void step(Block block, std::uint32_t seed, int film_threshold, bool squares) {
     for (int b = 0; b < 2; ++b)
         for (int a = 0; a < 2; ++a) fall(block, {a, b});
     for_pairs([&](Column c, Column d) {
         slide(block, c, d);
         slide(block, d, c);
     });
-    for (int layer = block.on_floor() ? 0 : 1; layer < 2; ++layer)
+    slide_diagonally(block, {0, 0}, seed);
+    slide_diagonally(block, {1, 0}, seed);
+    for (int layer = block.on_floor() ? 0 : 1; layer < 2; ++layer) {
+        if (squares && level_square(block, layer, film_threshold)) continue;
         for_pairs([&](Column c, Column d) { level(block, layer, c, d, film_threshold); });
+    }
 }
 
 }  // namespace
@@ -137,8 +178,8 @@ void water_block_tick(Cells& cells, std::uint32_t seed, std::uint32_t tick, int 
             for (int x = -offset.x; x < size.x; x += 2) {
                 const std::uint32_t xz = static_cast<std::uint32_t>(x + 1) | static_cast<std::uint32_t>(z + 1)
                                                                                  << 16;
-                const std::uint32_t frame = hash3(tick_key, xz, static_cast<std::uint32_t>(y + 1));
-                step(Block(cells, {x, y, z}, frame), film_threshold);
+                const std::uint32_t chance = hash3(tick_key, xz, static_cast<std::uint32_t>(y + 1));
+                step(Block(cells, {x, y, z}, chance & 7u), seed, film_threshold, (chance >> 3) % 4 == 0);
             }
 }
 

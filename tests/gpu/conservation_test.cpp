@@ -13,12 +13,14 @@ using ConservationTest = GlTest;
 TEST_F(ConservationTest, fault_1_water_neither_appears_nor_disappears_in_any_scene) {
     const std::vector<std::string> names = built_in_scenes();
     ASSERT_FALSE(names.empty());
+    // zink over lavapipe takes long to read a 3D texture back; what a tick loses stays lost.
+    const int interval = gl::driver_info().renderer.starts_with("zink") ? 10 : 1;
     for (const std::string& name : names) {
         SCOPED_TRACE(name);
         const Scene scene = load_scene(name, Settings{});
         gl::Timers timers;
         Simulation simulation(scene, timers);
-        expect_kept_books(simulation, scene.settings, take_census(scene.cells), 500, 1);
+        expect_kept_books(simulation, scene.settings, take_census(scene.cells), 500, interval);
         const FlowTotals flow = simulation.flow_totals();
         EXPECT_EQ(flow.sprung_water_quanta + flow.sprung_sand_voxels == 0, scene.springs.empty());
         if (HasFatalFailure()) return;
