@@ -9,6 +9,7 @@ namespace tarn {
 
 namespace {
 
+constexpr double shown_ms_min = 0.005;
 constexpr ImGuiWindowFlags passive_window =
     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_AlwaysAutoResize |
     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav |
@@ -37,7 +38,9 @@ void draw_overlay(const OverlayInputs& in) {
     ImGui::SetNextWindowBgAlpha(0.45f);
     if (ImGui::Begin("##overlay", nullptr, passive_window)) {
         line("frame {:.1f} ms", in.frame_ms);
-        for (const gl::PassTime& pass : in.passes) line("  {} {:.2f}", pass.name, pass.mean_ms);
+        for (const gl::PassTime& pass : in.passes) {
+            if (pass.mean_ms >= shown_ms_min) line("  {} {:.2f}", pass.name, pass.mean_ms);
+        }
         if (in.paused)
             line("paused, tick {}", in.tick);
         else
@@ -61,7 +64,7 @@ void draw_message(const std::string& text, bool is_error) {
     if (text.empty()) return;
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float margin = ImGui::GetFontSize() / 2;
-    ImGui::SetNextWindowPos({margin, display.y - margin}, ImGuiCond_Always, {0, 1});
+    ImGui::SetNextWindowPos({display.x - margin, display.y - margin}, ImGuiCond_Always, {1, 1});
     ImGui::SetNextWindowBgAlpha(0.7f);
     if (ImGui::Begin(is_error ? "##error" : "##message", nullptr, passive_window)) {
         ImGui::PushTextWrapPos(display.x - 4 * margin);

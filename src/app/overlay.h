@@ -28,7 +28,7 @@ struct OverlayInputs {
 // Times and counts, top left.
 void draw_overlay(const OverlayInputs& inputs);
 
-// Lines at the bottom left; nothing for an empty text.
+// Lines at the bottom right; nothing for an empty text.
 void draw_message(const std::string& text, bool is_error);
 
 // The cross in the middle of the picture, for the captured mouse.

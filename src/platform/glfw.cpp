@@ -204,7 +204,8 @@ class Window : public Platform {
         const double now_s = glfwGetTime();
         input.dt_s = std::max(0.0, now_s - last_frame_s_);
         last_frame_s_ = now_s;
-        if (!ImGui::GetIO().WantCaptureKeyboard) read_keys(input);
+        // WantCaptureKeyboard would also take the keys while a slider is dragged.
+        if (!ImGui::GetIO().WantTextInput) read_keys(input);
         read_mouse(input);
         return input;
     }

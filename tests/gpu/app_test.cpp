@@ -1,0 +1,207 @@
+// The whole App without a window: an ImGui context of its own stands in for the platform's.
+#include "app/app.h"
+
+#include <imgui.h>
+
+#include <filesystem>
+
+#include "core/error.h"
+#include "gpu/gl_test.h"
+
+namespace tarn {
+namespace {
+
+constexpr glm::ivec2 size_px{48, 32};
+
+class AppTest : public GlTest {
+  protected:
+    AppTest() {
+        ImGui::CreateContext();
+        ImGuiIO& io = ImGui::GetIO();
+        io.IniFilename = nullptr;
+        io.DisplaySize = {static_cast<float>(size_px.x), static_cast<float>(size_px.y)};
+        unsigned char* pixels = nullptr;
+        int width = 0;
+        int height = 0;
+        io.Fonts->GetTexDataAsRGBA32(&pixels, &width, &height);
+    }
+    ~AppTest() override { ImGui::DestroyContext(); }
+
+    static Input hands(double dt_s = 0.1) {
+        Input input;
+        input.dt_s = dt_s;
+        input.size_px = size_px;
+        input.interactive = true;
+        return input;
+    }
+    static Input pressing(Key key) {
+        Input input = hands();
+        input.pressed[static_cast<std::size_t>(key)] = true;
+        input.down[static_cast<std::size_t>(key)] = true;
+        return input;
+    }
+    static Input clicking(MouseButton button) {
+        Input input = hands();
+        input.mouse_on_picture = true;
+        input.mouse_px = glm::vec2(size_px) / 2.f;
+        input.mouse_pressed[static_cast<std::size_t>(button)] = true;
+        input.mouse_down[static_cast<std::size_t>(button)] = true;
+        return input;
+    }
+    static void play(App& app, const Input& input) {
+        ImGui::NewFrame();
+        app.frame(input);
+        ImGui::Render();
+    }
+
+    // A floor of grass under the sky, seen from above its middle.
+    static Scene meadow() {
+        Scene scene;
+        scene.name = "meadow";
+        scene.cells = Cells({32, 16, 32});
+        for (int z = 0; z < 32; ++z)
+            for (int x = 0; x < 32; ++x) scene.cells.at({x, 0, z}) = MATERIAL_GRASS;
+        scene.settings.camera_position_vox = {16.5f, 12, 16.5f};
+        scene.settings.camera_pitch_deg = -90;
+        apply_quality(scene.settings, Quality::Fast);
+        return scene;
+    }
+    static App::Options interactive() { return {.interactive = true, .platform = nullptr}; }
+    static std::uint64_t count(App& app, std::uint8_t material) {
+        return take_census(app.simulation().read_cells()).voxels[material];
+    }
+};
+
+TEST_F(AppTest, InputReachesThePictureInItsOwnFrameWhileTicksLag) {
+    Scene scene = meadow();
+    scene.settings.ticks_per_second = 1000;
+    App app(scene, scene.settings, interactive());
+    const auto is_blue = [&] {
+        const ImageRgba8 picture = app.renderer().read_picture();
+        const std::uint8_t* middle = &picture.pixels[4 * (size_px.x * (size_px.y / 2) + size_px.x / 2)];
+        return middle[2] > middle[1];
+    };
+    play(app, hands(10));
+    EXPECT_FALSE(is_blue()) << "grass below";
+    EXPECT_LE(app.simulation().tick(), 8u) << "ticks that lag are dropped";
+    Input look_up = pressing(Key::MouseLook);
+    look_up.dt_s = 10;
+    look_up.mouse_delta_px = {0, -1e5f};
+    play(app, look_up);
+    EXPECT_EQ(app.settings().camera_pitch_deg, 90);
+    EXPECT_TRUE(is_blue()) << "the sky, in the frame of the movement";
+}
+
+TEST_F(AppTest, StrokesPlaceRemoveUndoAndRedo) {
+    Scene scene = meadow();
+    App app(scene, scene.settings, interactive());
+    play(app, pressing(Key::Pause));
+    play(app, pressing(Key::Digit1));
+    play(app, clicking(MouseButton::Left));
+    const std::uint64_t stone = count(app, MATERIAL_STONE);
+    EXPECT_GT(stone, 10u);
+    play(app, hands());
+    play(app, clicking(MouseButton::Right));
+    const std::uint64_t less = count(app, MATERIAL_STONE);
+    EXPECT_LT(less, stone);
+    play(app, pressing(Key::Undo));
+    EXPECT_EQ(count(app, MATERIAL_STONE), stone);
+    play(app, pressing(Key::Undo));
+    EXPECT_EQ(count(app, MATERIAL_STONE), 0u);
+    EXPECT_EQ(app.simulation().read_cells(), scene.cells);
+    play(app, pressing(Key::Redo));
+    play(app, pressing(Key::Redo));
+    EXPECT_EQ(count(app, MATERIAL_STONE), less);
+    EXPECT_EQ(app.simulation().tick(), 0u);
+}
+
+TEST_F(AppTest, AHeldButtonPoursWaterThatTheBooksKnow) {
+    Scene scene = meadow();
+    App app(scene, scene.settings, interactive());
+    Input input = clicking(MouseButton::Left);
+    for (int i = 0; i < 10; ++i) {
+        play(app, input);
+        input.mouse_pressed = {};
+    }
+    const Census census = take_census(app.simulation().read_cells());
+    const EditTotals& edits = app.simulation().edit_totals();
+    EXPECT_GT(census.water_quanta, 16u * 33);
+    EXPECT_EQ(census.water_quanta, edits.placed.water_quanta - edits.removed.water_quanta);
+}
+
+TEST_F(AppTest, MiddleClickTakesTheMaterialAndPlacesIt) {
+    Scene scene = meadow();
+    App app(scene, scene.settings, interactive());
+    const std::uint64_t grass = count(app, MATERIAL_GRASS);
+    play(app, clicking(MouseButton::Middle));
+    play(app, clicking(MouseButton::Left));
+    EXPECT_GT(count(app, MATERIAL_GRASS), grass);
+}
+
+TEST_F(AppTest, PauseStepAndReload) {
+    Scene scene = meadow();
+    App app(scene, scene.settings, interactive());
+    play(app, hands());
+    EXPECT_GT(app.simulation().tick(), 0u);
+    play(app, pressing(Key::Pause));
+    const std::uint64_t paused = app.simulation().tick();
+    play(app, hands());
+    EXPECT_EQ(app.simulation().tick(), paused);
+    play(app, pressing(Key::Step));
+    EXPECT_EQ(app.simulation().tick(), paused + 1);
+    play(app, hands());
+    EXPECT_EQ(app.simulation().tick(), paused + 1);
+    play(app, clicking(MouseButton::Left));
+    play(app, pressing(Key::Reset));
+    EXPECT_EQ(app.simulation().tick(), 0u);
+    EXPECT_EQ(app.simulation().read_cells(), scene.cells);
+}
+
+TEST_F(AppTest, AnotherSceneBringsItsCameraAndKeepsTheDisplay) {
+    Scene scene = meadow();
+    scene.settings.exposure_ev = 1.5f;
+    App app(scene, scene.settings, interactive());
+    play(app, hands());
+    EXPECT_THROW(app.load("no-such-scene"), Error);
+    EXPECT_EQ(app.simulation().read_cells().size_vox(), scene.cells.size_vox());
+    app.load("furnace");
+    play(app, hands());
+    EXPECT_NE(app.simulation().size_vox(), scene.cells.size_vox());
+    EXPECT_NE(app.settings().camera_position_vox, scene.settings.camera_position_vox);
+    EXPECT_EQ(app.settings().exposure_ev, 1.5f);
+    EXPECT_EQ(app.settings().quality, Quality::Fast);
+}
+
+TEST_F(AppTest, HeadlessRunsTicksPerFrameAndNoClock) {
+    Scene scene = meadow();
+    App still(scene, scene.settings, {});
+    Input input;
+    input.size_px = size_px;
+    still.frame(input);
+    EXPECT_EQ(still.simulation().tick(), 0u);
+    scene.settings.ticks_per_frame = 3;
+    App moving(scene, scene.settings, {});
+    moving.frame(input);
+    moving.frame(input);
+    EXPECT_EQ(moving.simulation().tick(), 6u);
+}
+
+TEST_F(AppTest, PicturesNeverOverwriteOneAnother) {
+    const std::filesystem::path before = std::filesystem::current_path();
+    const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "tarn_app_test";
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder);
+    std::filesystem::current_path(folder);
+    Scene scene = meadow();
+    App app(scene, scene.settings, interactive());
+    play(app, pressing(Key::Screenshot));
+    play(app, pressing(Key::Screenshot));
+    for (const char* name : {"tarn-0001.png", "tarn-0001.json", "tarn-0002.png", "tarn-0002.json"})
+        EXPECT_TRUE(std::filesystem::exists(name)) << name;
+    EXPECT_EQ(read_png("tarn-0001.png").width, size_px.x);
+    std::filesystem::current_path(before);
+    std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace tarn

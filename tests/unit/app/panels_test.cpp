@@ -1,0 +1,135 @@
+// The panels in an ImGui context without a window: the mouse is moved over them pixel by pixel.
+#include "app/panels.h"
+
+#include <gtest/gtest.h>
+#include <imgui.h>
+#include <imgui_internal.h>
+
+#include <functional>
+#include <set>
+
+#include "app/setting_row.h"
+
+namespace tarn {
+namespace {
+
+class PanelsTest : public testing::Test {
+  protected:
+    PanelsTest() {
+        ImGui::CreateContext();
+        ImGuiIO& io = ImGui::GetIO();
+        io.IniFilename = nullptr;
+        io.DisplaySize = {1200, 2400};
+        unsigned char* pixels = nullptr;
+        int width = 0;
+        int height = 0;
+        io.Fonts->GetTexDataAsRGBA32(&pixels, &width, &height);
+    }
+    ~PanelsTest() override { ImGui::DestroyContext(); }
+
+    static void frame(const std::function<void()>& draw) {
+        ImGui::GetIO().DeltaTime = 0.1f;
+        ImGui::NewFrame();
+        draw();
+        ImGui::Render();
+    }
+
+    // Ids of the items hovered anywhere in the window, and those of them without a tooltip.
+    struct Sweep {
+        std::set<ImGuiID> hovered, silent;
+    };
+    static Sweep sweep(const char* window_name, const std::function<void()>& draw) {
+        frame(draw);
+        frame(draw);
+        ImGuiWindow* window = ImGui::FindWindowByName(window_name);
+        // Corners for resizing are the window's own.
+        const std::set<ImGuiID> corners{ImGui::GetWindowResizeCornerID(window, 0),
+                                        ImGui::GetWindowResizeCornerID(window, 1)};
+        Sweep found;
+        for (float y = window->ContentRegionRect.Min.y; y < window->ContentRegionRect.Max.y; y += 4) {
+            for (float x = window->ContentRegionRect.Min.x; x < window->ContentRegionRect.Max.x; x += 6) {
+                ImGui::GetIO().MousePos = {x, y};
+                frame(draw);
+                const ImGuiID id = ImGui::GetCurrentContext()->HoveredId;
+                if (id == 0 || corners.contains(id)) continue;
+                found.hovered.insert(id);
+                const bool shown = [] {
+                    for (const ImGuiWindow* w : ImGui::GetCurrentContext()->Windows) {
+                        if (w->Active && (w->Flags & ImGuiWindowFlags_Tooltip) != 0) return true;
+                    }
+                    return false;
+                }();
+                if (!shown) found.silent.insert(id);
+            }
+        }
+        return found;
+    }
+
+    Settings settings, defaults;
+    Brush brush;
+};
+
+TEST_F(PanelsTest, EveryButtonAndFieldOfTheSettingsHasATooltip) {
+    Panels panels;
+    panels.settings_open = true;
+    const std::vector<SceneSummary> scenes{{"flat", "a plain"}};
+    const std::string scene = "flat";
+    const Sweep found = sweep("Settings", [&] {
+        Actions actions;
+        panels.draw({.settings = settings,
+                     .brush = brush,
+                     .defaults = defaults,
+                     .scene = scene,
+                     .scenes = scenes,
+                     .paused = false,
+                     .can_undo = true,
+                     .can_redo = true},
+                    actions);
+    });
+    // 5 of time, 6 of the brush, 3 of the world, 7 groups
+    EXPECT_GE(found.hovered.size(), 21u);
+    EXPECT_TRUE(found.silent.empty()) << found.silent.size() << " of " << found.hovered.size();
+    EXPECT_TRUE(panels.settings_was_shown());
+    EXPECT_EQ(settings, defaults) << "looking changes nothing";
+}
+
+TEST_F(PanelsTest, EverySettingHasATooltipAndAWayBack) {
+    for (const SettingInfo& info : setting_infos()) {
+        const glm::dvec3 other =
+            info.get(defaults) == glm::dvec3(info.max) ? glm::dvec3(info.min) : glm::dvec3(info.max);
+        info.set(settings, other);
+        const Sweep found = sweep("row", [&] {
+            ImGui::SetNextWindowPos({10, 10});
+            ImGui::SetNextWindowSize({420, 60});
+            ImGui::Begin("row", nullptr, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoScrollbar);
+            setting_row(info, settings, defaults);
+            ImGui::End();
+        });
+        // A choice of one value has no other to come back from.
+        const std::size_t controls = info.min == info.max ? 1 : 2;
+        EXPECT_GE(found.hovered.size(), controls) << info.name;
+        EXPECT_TRUE(found.silent.empty()) << info.name;
+    }
+}
+
+TEST_F(PanelsTest, HelpIsDrawnWithoutAskingForAnything) {
+    Panels panels;
+    panels.help_open = true;
+    Actions actions;
+    frame([&] {
+        panels.draw({.settings = settings,
+                     .brush = brush,
+                     .defaults = defaults,
+                     .scene = "flat",
+                     .scenes = {},
+                     .paused = true,
+                     .can_undo = false,
+                     .can_redo = false},
+                    actions);
+    });
+    EXPECT_TRUE(panels.help_was_shown());
+    EXPECT_FALSE(actions.load_scene.has_value());
+}
+
+}  // namespace
+}  // namespace tarn
