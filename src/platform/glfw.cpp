@@ -167,7 +167,7 @@ class Window : public Platform {
         glfwSetScrollCallback(
             window, [](GLFWwindow* w, double /*x*/, double y) { of(w).wheel_ += static_cast<float>(y); });
         glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) { of(w).on_cursor({x, y}); });
-        set_vsync(true);
+        glfwSwapInterval(1);
 
         IMGUI_CHECKVERSION();
         ImGui::CreateContext();
@@ -323,7 +323,7 @@ class Window : public Platform {
     glm::dvec2 cursor_{0}, moved_{0};  // in screen coordinates
     bool cursor_known_ = false;
     bool captured_ = false;
-    bool vsync_ = false;
+    bool vsync_ = true;
     double last_frame_s_ = 0;
 };
 

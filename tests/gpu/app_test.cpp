@@ -78,7 +78,8 @@ TEST_F(AppTest, InputReachesThePictureInItsOwnFrameWhileTicksLag) {
     App app(scene, scene.settings, interactive());
     const auto is_blue = [&] {
         const ImageRgba8 picture = app.renderer().read_picture();
-        const std::uint8_t* middle = &picture.pixels[4 * (size_px.x * (size_px.y / 2) + size_px.x / 2)];
+        const std::uint8_t* middle =
+            &picture.pixels[std::size_t{4} * (size_px.x * (size_px.y / 2) + size_px.x / 2)];
         return middle[2] > middle[1];
     };
     play(app, hands(10));

@@ -44,9 +44,9 @@ TEST(Camera, PitchGrowsUpward) {
 }
 
 TEST(Camera, BasisIsOrthonormalAndRightHanded) {
-    for (float yaw = -360; yaw <= 360; yaw += 37) {
-        for (float pitch = -90; pitch <= 90; pitch += 15) {
-            const CameraBasis b = camera_basis(yaw, pitch);
+    for (int yaw = -360; yaw <= 360; yaw += 37) {
+        for (int pitch = -90; pitch <= 90; pitch += 15) {
+            const CameraBasis b = camera_basis(static_cast<float>(yaw), static_cast<float>(pitch));
             EXPECT_NEAR(glm::length(b.dir), 1, 1e-6);
             EXPECT_NEAR(glm::dot(b.dir, b.right), 0, 1e-6);
             EXPECT_NEAR(glm::dot(b.dir, b.up), 0, 1e-6);

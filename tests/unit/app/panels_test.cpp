@@ -46,9 +46,11 @@ class PanelsTest : public testing::Test {
         const std::set<ImGuiID> corners{ImGui::GetWindowResizeCornerID(window, 0),
                                         ImGui::GetWindowResizeCornerID(window, 1)};
         Sweep found;
-        for (float y = window->ContentRegionRect.Min.y; y < window->ContentRegionRect.Max.y; y += 4) {
-            for (float x = window->ContentRegionRect.Min.x; x < window->ContentRegionRect.Max.x; x += 6) {
-                ImGui::GetIO().MousePos = {x, y};
+        const ImRect area = window->ContentRegionRect;
+        for (int y = 0; y < static_cast<int>(area.GetHeight()); y += 4) {
+            for (int x = 0; x < static_cast<int>(area.GetWidth()); x += 6) {
+                ImGui::GetIO().MousePos = {area.Min.x + static_cast<float>(x),
+                                           area.Min.y + static_cast<float>(y)};
                 frame(draw);
                 const ImGuiID id = ImGui::GetCurrentContext()->HoveredId;
                 if (id == 0 || corners.contains(id)) continue;
