@@ -7,6 +7,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "core/error.h"
@@ -173,6 +174,7 @@ class Window : public Platform {
         ImGui::CreateContext();
         ImGui::GetIO().IniFilename = nullptr;  // leave no imgui.ini in the user's folder
         ImGui::StyleColorsDark();
+        ImGui::GetIO().FontGlobalScale = text_scale();
         // Installed after ours, so ImGui calls ours too.
         ImGui_ImplGlfw_InitForOpenGL(window, true);
         ImGui_ImplOpenGL3_Init("#version 450");
@@ -214,13 +216,15 @@ class Window : public Platform {
         const glm::ivec2 size = framebuffer_size();
         const glm::ivec3 from = picture.size();
         glDisable(GL_SCISSOR_TEST);
+        glBindFramebuffer(GL_FRAMEBUFFER, 0);
         if (size.x > 0 && size.y > 0) {
+            // Mesa asks for a resized window's new size at glViewport only; a blit alone keeps the old one.
+            glViewport(0, 0, size.x, size.y);
             const gl::Framebuffer source("window: picture", {&picture});
             const bool same = from.x == size.x && from.y == size.y;
             glBlitNamedFramebuffer(source.name(), 0, 0, 0, from.x, from.y, 0, 0, size.x, size.y,
                                    GL_COLOR_BUFFER_BIT, same ? GL_NEAREST : GL_LINEAR);
         }
-        glBindFramebuffer(GL_FRAMEBUFFER, 0);
         ImGui::Render();
         ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
         glfwSwapBuffers(handle_.get());
@@ -303,6 +307,16 @@ class Window : public Platform {
             if (glfwGetMouseButton(window, code) == GLFW_PRESS)
                 input.mouse_down[static_cast<std::size_t>(button)] = true;
         }
+    }
+
+    // X11 has no units but pixels, so text grows with the display's density; in quarters, for crisp letters.
+    float text_scale() const {
+        float scale = 1;
+        glfwGetWindowContentScale(handle_.get(), &scale, nullptr);
+        glm::ivec2 window_size{1};
+        glfwGetWindowSize(handle_.get(), &window_size.x, &window_size.y);
+        scale *= static_cast<float>(window_size.x) / static_cast<float>(std::max(framebuffer_size().x, 1));
+        return std::max(1.f, std::round(scale * 4) / 4);
     }
 
     glm::ivec2 framebuffer_size() const {

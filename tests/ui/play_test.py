@@ -187,8 +187,15 @@ def open_panels(game):
     game.state()
 
 
+def resize(game):
+    for size in ((1, 1), SIZE):
+        game.display.do("windowsize", game.window, *size)
+        game.state()
+    wait_for("a picture in the resized window", lambda: colors(game.photograph("7-resized")) > 50)
+
+
 def main():
-    program, pictures = sys.argv[1], pathlib.Path(sys.argv[2])
+    program, pictures = str(pathlib.Path(sys.argv[1]).resolve()), pathlib.Path(sys.argv[2])
     shutil.rmtree(pictures, ignore_errors=True)
     pictures.mkdir(parents=True)
     with tempfile.TemporaryDirectory() as name, Display() as display:
@@ -202,6 +209,7 @@ def main():
             fly_and_look(game)
             build(game)
             open_panels(game)
+            resize(game)
             last = game.quit()
         finally:
             game.process.kill()
