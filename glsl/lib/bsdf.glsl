@@ -3,9 +3,11 @@
 #include "lib/ggx.glsl"
 #include "lib/materials.glsl"
 
+#ifdef TRACE_COATED
 // E(cos, alpha, eta) of the GGX interface of a dielectric: r; its cosine-weighted mean Eavg: g. Axes: sqrt(cos),
 // roughness, (eta - 1) / (eta + 1) from -0.6 to 0.6 (src/reference/albedo.h makes it).
 layout(binding = BINDING_ALBEDO_TABLE) uniform sampler3D albedo_table;
+#endif
 
 struct Surface {
     vec3 base;
@@ -22,24 +24,29 @@ struct BsdfSample {
     float pdf;     // per solid angle; 0 for a delta direction
 };
 
-// The surface between `medium` on this side and `beyond`.
-Surface surface_of(uint beyond, uint medium) {
-    Material m = materials[beyond];
+// The surface between `medium` (of index `medium_ior`) on this side and `id` beyond, whose properties are `m`.
+Surface surface_of(Material m, uint id, uint medium, float medium_ior) {
     Surface s;
-    s.transmissive = transmits(beyond);
+    s.transmissive = transmits(id);
     s.base = m.base_roughness.rgb;
     s.metallic = m.emission_metallic.w;
     s.coated = m.absorption_ior.w != 1.0;
-    s.eta = m.absorption_ior.w / ior_of(medium);
-    // Between two transparent media the rougher one makes the surface; air has none of its own.
-    float roughness = beyond == MATERIAL_AIR ? 0.0 : m.base_roughness.w;
+    s.eta = m.absorption_ior.w / medium_ior;
+    float roughness = m.base_roughness.w;
+#ifdef TRACE_CLEAR
+    // Between two clear media the rougher one makes the surface; air has none of its own.
+    if (id == MATERIAL_AIR) roughness = 0.0;
+#ifdef TRACE_ROUGH
     if (s.transmissive && medium != MATERIAL_AIR) roughness = max(roughness, materials[medium].base_roughness.w);
+#endif
+#endif
     s.alpha = roughness * roughness;
     return s;
 }
 
 bool is_smooth(Surface s) { return s.alpha < ALPHA_SMOOTH; }
 
+#ifdef TRACE_COATED
 vec2 albedo_lookup(float cos_w, float alpha, float eta) {
     vec3 size = vec3(textureSize(albedo_table, 0));
     vec3 at = vec3(sqrt(clamp(cos_w, 0.0, 1.0)), sqrt(alpha), ((eta - 1.0) / (eta + 1.0) + 0.6) / 1.2);
@@ -49,33 +56,17 @@ vec2 albedo_lookup(float cos_w, float alpha, float eta) {
 // Reflectance of the interface at one microfacet: dielectric and metal blended.
 vec3 opaque_fresnel(Surface s, float cos_h) {
     float dielectric = s.coated ? fresnel_dielectric(cos_h, s.eta) : 0.0;
-    if (s.metallic == 0.0) return vec3(dielectric);
     return mix(vec3(dielectric), fresnel_schlick(cos_h, s.base), s.metallic);
 }
 
-// Factor of the Lambert base that leaves room for what the interface reflects (Kelemen & Szirmay-Kalos 2001).
-float base_factor(Surface s, vec3 wo, vec3 wi) {
-    if (!s.coated) return 1.0;
-    vec2 out_ = albedo_lookup(wo.z, s.alpha, s.eta);
-    float in_ = albedo_lookup(wi.z, s.alpha, s.eta).r;
-    return (1.0 - out_.r) * (1.0 - in_) / max(1e-4, 1.0 - out_.g);
-}
-
-// Probability of sampling the interface rather than the base.
-float interface_probability(Surface s, vec3 wo) {
-    float e = s.coated ? albedo_lookup(wo.z, s.alpha, s.eta).r : 0.0;
-    float mirror = mix(e, max_component(s.base), s.metallic);
-    float diffuse = (1.0 - s.metallic) * max_component(s.base) * (1.0 - e);
-    return mirror + diffuse > 0.0 ? mirror / (mirror + diffuse) : 0.0;
-}
-
-// f cos and density of an opaque surface for a given wi; the delta part of a smooth interface is left out.
-void opaque_eval(Surface s, vec3 wo, vec3 wi, bool uniform_diffuse, out vec3 f_cos, out float pdf) {
-    f_cos = vec3(0.0);
-    pdf = 0.0;
-    if (wi.z <= 0.0 || wo.z <= 0.0) return;
-    float p = interface_probability(s, wo);
-    f_cos = s.base * ((1.0 - s.metallic) * base_factor(s, wo, wi) * wi.z * INV_PI);
+// Value and density of a direction, given E of the direction to the eye (albedo_o) and the probability of sampling
+// the interface. The base is Lambert, less what the interface reflects of it (Kelemen & Szirmay-Kalos 2001).
+void coated_eval(Surface s, vec3 wo, vec3 wi, bool uniform_diffuse, vec2 albedo_o, float p, out vec3 f_cos,
+                 out float pdf) {
+    float room = 1.0;
+    if (s.coated)
+        room = (1.0 - albedo_o.r) * (1.0 - albedo_lookup(wi.z, s.alpha, s.eta).r) / max(1e-4, 1.0 - albedo_o.g);
+    f_cos = s.base * ((1.0 - s.metallic) * room * wi.z * INV_PI);
     pdf = (1.0 - p) * (uniform_diffuse ? 0.5 * INV_PI : wi.z * INV_PI);
     if (p > 0.0 && !is_smooth(s)) {
         vec3 h = normalize(wo + wi);
@@ -83,84 +74,105 @@ void opaque_eval(Surface s, vec3 wo, vec3 wi, bool uniform_diffuse, out vec3 f_c
         f_cos += opaque_fresnel(s, dot(wo, h)) * (d * ggx_g2(wo, wi, s.alpha) / (4.0 * wo.z));
         pdf += p * ggx_g1(wo, s.alpha) * d / (4.0 * wo.z);
     }
+    if (wi.z <= 0.0 || wo.z <= 0.0) {
+        f_cos = vec3(0.0);
+        pdf = 0.0;
+    }
+}
+
+// Probability of sampling the interface rather than the base.
+float interface_probability(Surface s, float albedo_o) {
+    float mirror = mix(albedo_o, max_component(s.base), s.metallic);
+    float diffuse = (1.0 - s.metallic) * max_component(s.base) * (1.0 - albedo_o);
+    return mirror + diffuse > 0.0 ? mirror / (mirror + diffuse) : 0.0;
+}
+
+vec2 albedo_towards(Surface s, float cos_w) { return s.coated ? albedo_lookup(cos_w, s.alpha, s.eta) : vec2(0.0); }
+#endif
+
+// f cos and density of an opaque surface for a given wi; the delta part of a smooth interface is left out.
+void opaque_eval(Surface s, vec3 wo, vec3 wi, bool uniform_diffuse, out vec3 f_cos, out float pdf) {
+#ifdef TRACE_COATED
+    vec2 albedo_o = albedo_towards(s, wo.z);
+    coated_eval(s, wo, wi, uniform_diffuse, albedo_o, interface_probability(s, albedo_o.r), f_cos, pdf);
+#else
+    float cos_i = max(0.0, wi.z);
+    f_cos = s.base * (cos_i * INV_PI);
+    pdf = uniform_diffuse ? (wi.z > 0.0 ? 0.5 * INV_PI : 0.0) : cos_i * INV_PI;
+#endif
 }
 
 // u: two numbers for the direction, one for the choice of the lobe. weight 0: the path ends.
 BsdfSample opaque_sample(Surface s, vec3 wo, vec3 u, bool uniform_diffuse) {
     BsdfSample result;
-    float p = interface_probability(s, wo);
-    if (u.z < p) {
-        if (is_smooth(s)) {
+    float phi = 2.0 * PI * u.x;
+    float z = uniform_diffuse ? u.y : sqrt(1.0 - u.y);
+    float r = uniform_diffuse ? sqrt(max(0.0, 1.0 - z * z)) : sqrt(u.y);
+    // The plain Lambert surface: f cos / density is the base colour itself, with no rounding.
+    result.wi = vec3(r * cos(phi), r * sin(phi), z);
+    result.weight = s.base * (uniform_diffuse ? 2.0 * z : 1.0);
+    result.pdf = uniform_diffuse ? 0.5 * INV_PI : z * INV_PI;
+#ifdef TRACE_COATED
+    vec2 albedo_o = albedo_towards(s, wo.z);
+    float p = interface_probability(s, albedo_o.r);
+    if (p > 0.0) {
+        bool mirror = u.z < p;
+        if (mirror && is_smooth(s)) {
             result.wi = vec3(-wo.xy, wo.z);
             result.weight = opaque_fresnel(s, wo.z) / p;
             result.pdf = 0.0;
-            return result;
-        }
-        vec3 h = ggx_sample_visible_normal(wo, s.alpha, u.xy);
-        result.wi = reflect(-wo, h);
-    } else {
-        float phi = 2.0 * PI * u.x;
-        float z = uniform_diffuse ? u.y : sqrt(1.0 - u.y);
-        float r = uniform_diffuse ? sqrt(max(0.0, 1.0 - z * z)) : sqrt(u.y);
-        result.wi = vec3(r * cos(phi), r * sin(phi), z);
-        // The plain Lambert surface: f cos / density is the base colour itself, with no rounding.
-        if (p == 0.0) {
-            result.weight = s.base * ((1.0 - s.metallic) * (uniform_diffuse ? 2.0 * z : 1.0));
-            result.pdf = uniform_diffuse ? 0.5 * INV_PI : z * INV_PI;
-            return result;
+        } else {
+            if (mirror) result.wi = reflect(-wo, ggx_sample_visible_normal(wo, s.alpha, u.xy));
+            vec3 f_cos;
+            coated_eval(s, wo, result.wi, uniform_diffuse, albedo_o, p, f_cos, result.pdf);
+            result.weight = result.pdf > 0.0 ? f_cos / result.pdf : vec3(0.0);
         }
     }
-    vec3 f_cos;
-    opaque_eval(s, wo, result.wi, uniform_diffuse, f_cos, result.pdf);
-    result.weight = result.pdf > 0.0 ? f_cos / result.pdf : vec3(0.0);
+#endif
     return result;
 }
 
+#ifdef TRACE_CLEAR
 // A dielectric interface, smooth or rough (Walter et al. 2007): reflection or transmission picked by Fresnel.
 // Transmitted radiance is scaled by (index here / index beyond)^2.
 BsdfSample dielectric_sample(Surface s, vec3 wo, vec3 u) {
     BsdfSample result;
     result.pdf = 0.0;
-    if (s.eta == 1.0) {
-        result.wi = -wo;
-        result.weight = vec3(1.0);
-        return result;
-    }
-    bool smooth_ = is_smooth(s);
-    vec3 h = smooth_ ? vec3(0.0, 0.0, 1.0) : ggx_sample_visible_normal(wo, s.alpha, u.xy);
+    vec3 h = vec3(0.0, 0.0, 1.0);
+#ifdef TRACE_ROUGH
+    bool rough = !is_smooth(s) && s.eta != 1.0;
+    if (rough) h = ggx_sample_visible_normal(wo, s.alpha, u.xy);
+#endif
     float cos_h = max(0.0, dot(wo, h));
     float f = fresnel_dielectric(cos_h, s.eta);
     bool reflected = u.z < f;
-    if (reflected) {
-        result.wi = reflect(-wo, h);
-    } else if (!refract_through(wo, h, s.eta, result.wi)) {
-        result.weight = vec3(0.0);
-        return result;
-    }
-    bool wrong_side = reflected ? result.wi.z <= 0.0 : result.wi.z >= 0.0;
-    float shadowing = smooth_ ? 1.0 : ggx_g2(wo, result.wi, s.alpha) / ggx_g1(wo, s.alpha);
-    result.weight = wrong_side ? vec3(0.0) : vec3(shadowing * (reflected ? 1.0 : 1.0 / (s.eta * s.eta)));
-    if (!smooth_ && !wrong_side) {
+    vec3 refracted;
+    bool passes = refract_through(wo, h, s.eta, refracted);
+    result.wi = reflected ? reflect(-wo, h) : refracted;
+    result.weight = vec3(reflected ? 1.0 : passes ? 1.0 / (s.eta * s.eta) : 0.0);
+#ifdef TRACE_ROUGH
+    if (rough) {
+        bool wrong_side = reflected ? result.wi.z <= 0.0 : result.wi.z >= 0.0;
+        result.weight *= wrong_side ? 0.0 : ggx_g2(wo, result.wi, s.alpha) / ggx_g1(wo, s.alpha);
         float visible = ggx_visible_normal_pdf(wo, h, s.alpha);
-        if (reflected) {
-            result.pdf = f * visible / max(4.0 * cos_h, 1e-12);
-        } else {
-            float denominator = cos_h + s.eta * dot(result.wi, h);
-            result.pdf = (1.0 - f) * visible * s.eta * s.eta * abs(dot(result.wi, h)) /
-                         max(denominator * denominator, 1e-12);
-        }
+        float cos_t = abs(dot(result.wi, h));
+        float denominator = cos_h - s.eta * cos_t;
+        result.pdf = reflected ? f * visible / max(4.0 * cos_h, 1e-12)
+                               : (1.0 - f) * visible * s.eta * s.eta * cos_t / max(denominator * denominator, 1e-12);
     }
+#endif
     return result;
 }
+#endif
 
+#ifdef TRACE_ROUGH
 // f cos and density of a rough dielectric for a wi on wo's side.
 void dielectric_eval_reflection(Surface s, vec3 wo, vec3 wi, out vec3 f_cos, out float pdf) {
-    f_cos = vec3(0.0);
-    pdf = 0.0;
-    if (wi.z <= 0.0 || s.eta == 1.0) return;
     vec3 h = normalize(wo + wi);
-    float f = fresnel_dielectric(max(0.0, dot(wo, h)), s.eta);
+    float f = fresnel_dielectric(clamp(dot(wo, h), 0.0, 1.0), s.eta);
     float d = ggx_d(h, s.alpha);
-    f_cos = vec3(f * d * ggx_g2(wo, wi, s.alpha) / (4.0 * wo.z));
-    pdf = f * d * ggx_g1(wo, s.alpha) / (4.0 * wo.z);
+    bool valid = wi.z > 0.0 && wo.z > 0.0 && s.eta != 1.0;
+    f_cos = vec3(valid ? f * d * ggx_g2(wo, wi, s.alpha) / (4.0 * wo.z) : 0.0);
+    pdf = valid ? f * d * ggx_g1(wo, s.alpha) / (4.0 * wo.z) : 0.0;
 }
+#endif

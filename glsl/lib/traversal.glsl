@@ -27,7 +27,7 @@ struct RayHit {
     float t;  // voxels from the origin; the limit where nothing is hit
     ivec3 previous;
     ivec3 cell;  // may lie one outside the world
-    int axis;    // of the face: 0, 1, 2; 1 for a surface
+    int axis;          // of the face: 0, 1, 2; 1 for a surface
     uint beyond;       // medium behind
     uint byte_beyond;  // of `cell`; 0 outside
     int steps;         // iterations, for cost views
@@ -59,7 +59,8 @@ bool is_partly_filled(uint value) { return is_water(value) && value != MATERIAL_
 float surface_height(ivec3 cell, uint value) { return float(cell.y) + float(quanta_of(value)) * 0.0625; }
 
 // The first change of medium along `dir` (unit length), at most t_max_vox from the origin.
-// Amanatides & Woo 1987; t comes from integer planes, never from a sum; ties go x < y < z.
+// Amanatides & Woo 1987; t comes from integer planes, never from a sum; ties go x < y < z. Lanes of a SIMD machine
+// pay for the whole body in every iteration, so it carries little state and the hit is put together behind it.
 RayHit trace_ray(RayStart start, vec3 dir, float t_max_vox) {
     ivec3 size = frame.world_size_vox.xyz;
     float limit = min(t_max_vox, TRAVERSAL_T_MAX);
@@ -67,87 +68,88 @@ RayHit trace_ray(RayStart start, vec3 dir, float t_max_vox) {
     // (plane + NEVER) * 1 = NEVER on an axis without motion.
     precise vec3 origin = mix(start.origin_vox, vec3(-TRAVERSAL_NEVER), still);
     precise vec3 inv_dir = 1.0 / mix(dir, vec3(1.0), still);
-    bvec3 forward = greaterThanEqual(dir, vec3(TRAVERSAL_STILL));
-    ivec3 stride = mix(ivec3(-1), ivec3(1), forward);
+    ivec3 forward = ivec3(greaterThanEqual(dir, vec3(TRAVERSAL_STILL)));
+    ivec3 stride = 2 * forward - 1;
+    // A level ray counts as rising ever so slowly: below a surface exactly if its origin is.
+    bool rising = dir.y > -TRAVERSAL_STILL;
+    precise float surface_inv = still.y ? 1e35 : inv_dir.y;
 
     ivec3 cell = start.cell;
     uint medium = start.medium;
 #ifdef TRAVERSAL_THROUGH_WATER
     if (medium == MATERIAL_WATER) medium = MATERIAL_AIR;
 #endif
+    // Whether the ray heads for a surface in a partly filled voxel, and when it meets that of this voxel.
+    bool heads_for_surface = !still.y && (medium == MATERIAL_WATER) == rising;
     uint value = inside_world(cell) ? cell_byte(cell) : MATERIAL_AIR;
-    int clear_bricks = 0;
+    precise float t_surface = (surface_height(cell, value) - start.origin_vox.y) * surface_inv;
+    if (!heads_for_surface || !is_partly_filled(value)) t_surface = TRAVERSAL_NEVER;
+
+#ifdef TRAVERSAL_SKIP
+    int clear_bricks = 0;  // distance to the nearest brick that holds anything but this medium
+    uint air_mask = medium == MATERIAL_AIR ? 0xffu : 0u;
+    uint water_mask = medium == MATERIAL_WATER ? 0xffu : 0u;
+    // Far more than o + t * d errs by, far less than a voxel.
+    vec3 behind = vec3(stride) * 0.015625;
+#endif
+    float t_exit = 0.0;
+    int axis = 0;
+    uint beyond = medium;
     int bound = size.x + size.y + size.z + 4;
-
-    RayHit hit = RayHit(HIT_NONE, t_max_vox, cell, cell, 0, MATERIAL_AIR, 0u, 0);
-    for (int i = 1; i <= bound; ++i) {
-        hit.steps = i;
-        ivec3 low = cell;
-        ivec3 high = cell + 1;
+    int steps = 0;
+    while (steps < bound) {
+        ++steps;
+        // The far faces of the voxel, or of the box of clear bricks around it.
+        ivec3 plane = cell + forward;
 #ifdef TRAVERSAL_SKIP
-        if (clear_bricks > 0) {
-            ivec3 brick = cell / BRICK_SIDE;
-            low = max((brick + 1 - clear_bricks) * BRICK_SIDE, ivec3(0));
-            high = min((brick + clear_bricks) * BRICK_SIDE, size);
-        }
+        ivec3 far_plane = ((cell / BRICK_SIDE) + 1 - forward + clear_bricks * stride) * BRICK_SIDE;
+        plane = mix(plane, clamp(far_plane, ivec3(0), size), bvec3(clear_bricks > 0));
 #endif
-        precise vec3 t = (vec3(mix(low, high, forward)) - origin) * inv_dir;
-        int axis = t.x <= t.y && t.x <= t.z ? 0 : t.y <= t.z ? 1 : 2;
-        precise float t_exit = t[axis];
+        precise vec3 t = (vec3(plane) - origin) * inv_dir;
+        bool x_first = t.x <= t.y && t.x <= t.z;
+        bool z_first = !x_first && !(t.y <= t.z);
+        axis = x_first ? 0 : z_first ? 2 : 1;
+        t_exit = x_first ? t.x : z_first ? t.z : t.y;
+        if (t_surface <= t_exit || !(t_exit <= limit)) break;
 
-        if (is_partly_filled(value) && !still.y && forward.y == (medium == MATERIAL_WATER)) {
-            precise float t_surface = (surface_height(cell, value) - origin.y) * inv_dir.y;
-            if (t_surface <= t_exit) {
-                if (t_surface <= limit) {
-                    uint beyond = medium == MATERIAL_WATER ? MATERIAL_AIR : MATERIAL_WATER;
-                    hit = RayHit(HIT_SURFACE, t_surface > 0.0 ? t_surface : 0.0, cell, cell, 1, beyond, value, i);
-                }
-                break;
-            }
-        }
-        if (!(t_exit <= limit)) break;
-
+        ivec3 next = cell;
 #ifdef TRAVERSAL_SKIP
-        if (clear_bricks > 0) {
-            // The cell where single steps would be: every plane passed before the exit, ties by axis.
-            ivec3 guess = ivec3(floor(start.origin_vox + t_exit * dir));
-            guess = clamp(guess, mix(low, cell, forward), mix(cell, high - 1, forward));
-            precise vec3 t_ahead = (vec3(guess + ivec3(forward)) - origin) * inv_dir;
-            precise vec3 t_behind = (vec3(guess + 1 - ivec3(forward)) - origin) * inv_dir;
-            for (int k = 0; k < 3; ++k) {
-                bool ahead = t_ahead[k] < t_exit || (t_ahead[k] == t_exit && k < axis);
-                bool behind = t_behind[k] < t_exit || (t_behind[k] == t_exit && k < axis);
-                if (ahead) guess[k] += stride[k];
-                else if (!behind && guess[k] != cell[k]) guess[k] -= stride[k];
-            }
-            guess[axis] = forward[axis] ? high[axis] - 1 : low[axis];
-            cell = guess;
-        }
+        // On the other axes the voxel where single steps would be: the guess is right or one behind, and moves on
+        // if the ray passed its far plane before the exit, ties by axis. For a box of one voxel it is that voxel.
+        ivec3 guess = ivec3(start.origin_vox + t_exit * dir - behind);
+        next = clamp(guess, min(cell, plane), max(cell, plane - 1));
+        precise vec3 t_next = (vec3(next + forward) - origin) * inv_dir;
+        bvec3 passed = bvec3(x_first ? t_next.x < t_exit : t_next.x <= t_exit,
+                             z_first ? t_next.y <= t_exit : t_next.y < t_exit, t_next.z < t_exit);
+        next += stride * ivec3(passed);
 #endif
-        cell[axis] += stride[axis];
+        cell = mix(next, plane - 1 + forward, bvec3(x_first, !x_first && !z_first, z_first));
+
         bool within = inside_world(cell);
         value = within ? cell_byte(cell) : MATERIAL_AIR;
-        uint beyond = material_of(value);
-        if (is_partly_filled(value)) {
-            float height = surface_height(cell, value);
-            precise float t_surface = (height - origin.y) * inv_dir.y;
-            bool below = still.y ? start.origin_vox.y < height : (t_exit < t_surface) == forward.y;
-            beyond = below ? MATERIAL_WATER : MATERIAL_AIR;
-        }
-        if (beyond != medium) {
-            ivec3 previous = cell;
-            previous[axis] -= stride[axis];
-            hit = RayHit(HIT_FACE, t_exit > 0.0 ? t_exit : 0.0, previous, cell, axis, beyond, value, i);
-            break;
-        }
+        bool partly = is_partly_filled(value);
+        precise float t_level = (surface_height(cell, value) - start.origin_vox.y) * surface_inv;
+        bool below = (t_exit < t_level) == rising;
+        beyond = partly ? (below ? MATERIAL_WATER : MATERIAL_AIR) : material_of(value);
         // A ray that enters starts one outside; any other that is outside has left.
-        if (!within) break;
+        if (beyond != medium || !within) break;
+        t_surface = partly && heads_for_surface ? t_level : TRAVERSAL_NEVER;
 #ifdef TRAVERSAL_SKIP
         uvec2 distances = texelFetch(brick_distance, cell / BRICK_SIDE, 0).rg;
-        clear_bricks = medium == MATERIAL_AIR ? int(distances.r) : medium == MATERIAL_WATER ? int(distances.g) : 0;
+        clear_bricks = int((distances.r & air_mask) | (distances.g & water_mask));
 #endif
     }
-    return hit;
+
+    if (beyond != medium) {
+        ivec3 previous = cell;
+        previous[axis] -= stride[axis];
+        return RayHit(HIT_FACE, t_exit > 0.0 ? t_exit : 0.0, previous, cell, axis, beyond, value, steps);
+    }
+    if (t_surface <= t_exit && t_surface <= limit) {
+        beyond = medium == MATERIAL_WATER ? MATERIAL_AIR : MATERIAL_WATER;
+        return RayHit(HIT_SURFACE, t_surface > 0.0 ? t_surface : 0.0, cell, cell, 1, beyond, value, steps);
+    }
+    return RayHit(HIT_NONE, t_max_vox, start.cell, start.cell, 0, MATERIAL_AIR, 0u, steps);
 }
 
 // The start of a ray from the eye. Inside the world: its cell and medium, t_entry = 0. Outside (air): the point

@@ -28,7 +28,7 @@ const float PLANE_TOLERANCE_PER_VOX = 1e-5;
 
 bool changed_since(vec3 at_vox) {
     ivec3 cell = clamp(ivec3(floor(at_vox)), ivec3(0), frame.world_size_vox.xyz - 1);
-    uint stamp = texelFetch(brick_changed, cell / BRICK_SIDE, 0).r;
+    uint stamp = texelFetch(brick_changed, cell >> BRICK_SHIFT, 0).r;
     // Stamps wrap: compare by signed difference.
     return int(stamp - previous_version) > 0;
 }

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include "app/camera.h"
@@ -104,6 +105,8 @@ class Stopwatch {
 
 struct Renderer::Parts {
     gl::Timers& timers;
+    Census initial;
+    std::vector<Spring> springs;
     MaterialTable materials;
     float metres_per_voxel;
     std::uint32_t seed;
@@ -115,7 +118,7 @@ struct Renderer::Parts {
 
     // A program is built when first used: a run pays for the passes it needs.
     double compile_ms = 0;
-    std::optional<TracePass> trace[2];        // [skip]
+    std::map<TraceFeatures, TracePass> trace;
     std::optional<TemporalPass> temporal[2];  // [blend]
     std::optional<FilterPass> filter[2];      // [gaussian]
     std::optional<AccumulatePass> accumulate;
@@ -134,6 +137,8 @@ struct Renderer::Parts {
 
     Parts(const Scene& scene, gl::Timers& timers_)
         : timers(timers_),
+          initial(take_census(scene.cells)),
+          springs(scene.springs),
           materials(scene.materials),
           metres_per_voxel(scene.metres_per_voxel),
           seed(scene.seed) {}
@@ -147,6 +152,14 @@ struct Renderer::Parts {
         }
         return *pass;
     }
+    TracePass& trace_pass(const TraceFeatures& features) {
+        const auto found = trace.find(features);
+        if (found != trace.end()) return found->second;
+        const Stopwatch watch;
+        TracePass& pass = trace.try_emplace(features, features).first->second;
+        compile_ms += watch.ms();
+        return pass;
+    }
     AccumulatePass& accumulate_pass() {
         if (!accumulate) {
             const Stopwatch watch;
@@ -156,6 +169,8 @@ struct Renderer::Parts {
         return *accumulate;
     }
 
+    bool may_contain(const Simulation& simulation, std::size_t id) const;
+    TraceFeatures features(const Simulation& simulation) const;
     void prepare_targets(const Settings& now, glm::ivec2 size_px);
     void upload_frame(const Simulation& simulation, const Settings& now);
     SurfaceBuffers surfaces(int set, const gl::Texture& radiance) const {
@@ -165,6 +180,32 @@ struct Renderer::Parts {
     const gl::Texture& accumulate_exact();
     const gl::Texture& reproject_and_filter(const Simulation& simulation);
 };
+
+// What the world held at its start, what was built since, and what springs make: more than is there now at
+// most.
+bool Renderer::Parts::may_contain(const Simulation& simulation, std::size_t id) const {
+    return initial.voxels[id] > 0 || simulation.edit_totals().placed.voxels[id] > 0 ||
+           std::any_of(springs.begin(), springs.end(),
+                       [&](const Spring& spring) { return spring.material == id; });
+}
+
+TraceFeatures Renderer::Parts::features(const Simulation& simulation) const {
+    TraceFeatures features;
+    for (std::size_t id = MATERIAL_AIR + 1; id < materials.size(); ++id) {
+        if (!may_contain(simulation, id)) continue;
+        const Material& m = materials[id];
+        const bool clear = id == MATERIAL_WATER || id == MATERIAL_GLASS;
+        // alpha = roughness^2; smooth below 1e-3, as in glsl/lib/ggx.glsl.
+        if (clear) features.rough |= m.roughness * m.roughness >= 1e-3f;
+        if (!clear) features.coated |= m.ior != 1 || m.metallic > 0;
+        features.clear |= clear;
+    }
+    const glm::vec3 sun = settings.sun_irradiance;
+    features.skip = settings.traversal == Traversal::Distance;
+    features.sun = settings.light_sampling != LightSampling::None && std::max({sun.x, sun.y, sun.z}) > 0;
+    features.sky = settings.light_sampling == LightSampling::SunAndSky;
+    return features;
+}
 
 void Renderer::Parts::prepare_targets(const Settings& now, glm::ivec2 size_px) {
     const glm::ivec2 traced =
@@ -258,8 +299,7 @@ const gl::Texture& Renderer::render(const Simulation& simulation, const Settings
     p.upload_frame(simulation, settings);
     p.current = 1 - p.current;
 
-    const bool skip = settings.traversal == Traversal::Distance;
-    p.built(p.trace[skip], skip)
+    p.trace_pass(p.features(simulation))
         .record({.cells = simulation.cells(),
                  .brick_distance = simulation.brick_distance(),
                  .albedo_table = p.albedo,
@@ -356,15 +396,17 @@ double Renderer::compile_ms() const {
 
 std::vector<std::string> Renderer::poll_reload() {
     std::vector<std::string> messages;
-    const auto poll = [&](auto& pass) {
-        if (!pass) return;
-        if (auto message = pass->program().poll_reload()) {
+    const auto poll_program = [&](gl::Program& program) {
+        if (auto message = program.poll_reload()) {
             messages.push_back(*message);
             parts_->has_history = false;
         }
     };
+    const auto poll = [&](auto& pass) {
+        if (pass) poll_program(pass->program());
+    };
+    for (auto& [features, pass] : parts_->trace) poll_program(pass.program());
     for (int i = 0; i < 2; ++i) {
-        poll(parts_->trace[i]);
         poll(parts_->temporal[i]);
         poll(parts_->filter[i]);
         poll(parts_->display[i]);

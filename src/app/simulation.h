@@ -59,11 +59,11 @@ class Simulation {
 
     const gl::Texture& cells() const;  // R8UI, size_vox
     const gl::Texture& brick_distance()
-        const;  // RG8UI, ceil(size / 8): Chebyshev distance in bricks to the nearest
+        const;  // RG8UI, ceil(size / BRICK_SIDE): Chebyshev distance in bricks to the nearest
                 // brick that is not all air (r), not all full water (g); 0 in it.
                 // Bricks cut by the world's end are never "all full water".
-    const gl::Texture& brick_changed() const;  // R32UI, ceil(size / 8): version() at which cells in it last
-                                               // changed (low 32 bits)
+    const gl::Texture& brick_changed() const;  // R32UI, ceil(size / BRICK_SIDE): version() at which cells in
+                                               // it last changed (low 32 bits)
 
     // Rebuilds shaders whose files changed; returns error texts (empty string: rebuilt).
     std::vector<std::string> poll_reload();

@@ -4,19 +4,35 @@
 
 namespace tarn {
 
-TracePass::TracePass(bool skip)
-    : program_({.label = skip ? "trace" : "trace voxels",
-                .compute = {},
-                .vertex = "pass/fullscreen.vert",
-                .fragment = "pass/trace.frag",
-                .defines = skip ? std::vector<std::pair<std::string, std::string>>{{"TRAVERSAL_SKIP", "1"}}
-                                : std::vector<std::pair<std::string, std::string>>{}}) {}
+namespace {
+
+gl::ProgramDesc describe(const TraceFeatures& features) {
+    gl::ProgramDesc desc{.label = "trace",
+                         .compute = {},
+                         .vertex = "pass/fullscreen.vert",
+                         .fragment = "pass/trace.frag",
+                         .defines = {}};
+    const auto define = [&](bool on, const char* name) {
+        if (on) desc.defines.emplace_back(name, "1");
+    };
+    define(features.skip, "TRAVERSAL_SKIP");
+    define(features.clear, "TRACE_CLEAR");
+    define(features.rough, "TRACE_ROUGH");
+    define(features.coated, "TRACE_COATED");
+    define(features.sun, "TRACE_SUN");
+    define(features.sky, "TRACE_SKY");
+    return desc;
+}
+
+}  // namespace
+
+TracePass::TracePass(const TraceFeatures& features) : features_(features), program_(describe(features)) {}
 
 void TracePass::record(const Inputs& inputs, const Outputs& outputs, gl::Timers& timers) const {
     const auto scope = timers.scope("trace");
     inputs.cells.bind(BINDING_CELLS);
-    inputs.brick_distance.bind(BINDING_BRICK_DISTANCE);
-    inputs.albedo_table.bind(BINDING_ALBEDO_TABLE);
+    if (features_.skip) inputs.brick_distance.bind(BINDING_BRICK_DISTANCE);
+    if (features_.coated) inputs.albedo_table.bind(BINDING_ALBEDO_TABLE);
     inputs.rejected.bind_storage(0);
     program_.use();
     outputs.target.draw_fullscreen();

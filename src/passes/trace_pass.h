@@ -1,5 +1,7 @@
 // Paths of one frame: radiance and the surface seen, per pixel. glsl/pass/trace.frag.
 #pragma once
+#include <compare>
+
 #include "gl/buffer.h"
 #include "gl/framebuffer.h"
 #include "gl/program.h"
@@ -7,6 +9,17 @@
 #include "gl/timers.h"
 
 namespace tarn {
+
+// What the program must be able to do; what is left out costs nothing. glsl/lib/path.glsl explains each.
+struct TraceFeatures {
+    bool skip = false;    // over empty bricks; otherwise voxel by voxel
+    bool clear = false;   // water or glass
+    bool rough = false;   // some of it rough
+    bool coated = false;  // opaque materials with an interface, metals
+    bool sun = false;     // sampled
+    bool sky = false;     // sampled
+    auto operator<=>(const TraceFeatures&) const = default;
+};
 
 class TracePass {
   public:
@@ -20,12 +33,12 @@ class TracePass {
         const gl::Framebuffer& target;  // radiance, position, normal, material
     };
 
-    // skip: over empty bricks; otherwise voxel by voxel.
-    explicit TracePass(bool skip);
+    explicit TracePass(const TraceFeatures& features);
     void record(const Inputs& inputs, const Outputs& outputs, gl::Timers& timers) const;
     gl::Program& program() { return program_; }
 
   private:
+    TraceFeatures features_;
     gl::Program program_;
 };
 

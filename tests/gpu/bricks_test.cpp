@@ -39,8 +39,8 @@ Obstacles find_obstacles(const Cells& cells) {
     Obstacles found;
     found.matter.assign(size.x * size.y * size.z, 0);
     found.not_water = found.matter;
-    for_cells(size * 8, [&](glm::ivec3 cell) {
-        const int brick = flat(cell / 8, size);
+    for_cells(size * BRICK_SIDE, [&](glm::ivec3 cell) {
+        const int brick = flat(cell / BRICK_SIDE, size);
         if (cells.get(cell, MATERIAL_AIR) != MATERIAL_AIR) found.matter[brick] = 1;
         if (cells.get(cell, MATERIAL_AIR) != MATERIAL_WATER_FULL) found.not_water[brick] = 1;
     });
@@ -81,7 +81,7 @@ void expect_right_stamps(const Simulation& simulation, const Cells& before, cons
     simulation.brick_changed().download(std::span<std::uint32_t>(stamps), GL_RED_INTEGER, GL_UNSIGNED_INT);
     std::vector<char> changed(stamps.size(), 0);
     for_cells(before.size_vox(), [&](glm::ivec3 cell) {
-        if (before.at(cell) != after.at(cell)) changed[flat(cell / 8, size)] = 1;
+        if (before.at(cell) != after.at(cell)) changed[flat(cell / BRICK_SIDE, size)] = 1;
     });
     for (std::size_t i = 0; i < stamps.size(); ++i)
         ASSERT_EQ(stamps[i] == static_cast<std::uint32_t>(simulation.version()), changed[i] != 0)
