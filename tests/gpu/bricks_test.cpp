@@ -16,7 +16,7 @@ namespace {
 using BricksTest = GlTest;
 
 glm::ivec3 bricks_in(glm::ivec3 size_vox) {
-    return (size_vox + 7) / 8;
+    return (size_vox + BRICK_SIDE - 1) / BRICK_SIDE;
 }
 
 template <typename Act>
