@@ -1,6 +1,7 @@
 // Headless: an EGL surfaceless context. No window system, no surface, no configuration.
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
+#include <stdlib.h>  // setenv is POSIX
 
 #include "core/error.h"
 #include "gl/context.h"
@@ -13,6 +14,8 @@ namespace {
 class EglContext {
   public:
     EglContext() {
+        // Mesa's own lines on stderr would hide ours.
+        setenv("EGL_LOG_LEVEL", "fatal", 0);
         display_ = eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
         if (display_ == EGL_NO_DISPLAY || eglInitialize(display_, nullptr, nullptr) == EGL_FALSE)
             fail("EGL: no surfaceless display (error {:#x}); an OpenGL 4.5 driver such as Mesa's is needed",
@@ -31,6 +34,7 @@ class EglContext {
         context_ = eglCreateContext(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
         if (context_ == EGL_NO_CONTEXT) {
             const EGLint error = eglGetError();
+            fail_if_old();
             eglTerminate(display_);
             fail("EGL: no OpenGL 4.5 core context (error {:#x}); a driver with OpenGL 4.5 is needed", error);
         }
@@ -47,6 +51,16 @@ class EglContext {
     EglContext& operator=(const EglContext&) = delete;
 
   private:
+    // Throws the error that names the version where the driver has an OpenGL, but an older one.
+    void fail_if_old() {
+        const EGLint any_version[] = {EGL_NONE};
+        const EGLContext old = eglCreateContext(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, any_version);
+        if (old == EGL_NO_CONTEXT) return;
+        if (eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, old) == EGL_TRUE)
+            gl::load(eglGetProcAddress);
+        eglDestroyContext(display_, old);
+    }
+
     EGLDisplay display_ = EGL_NO_DISPLAY;
     EGLContext context_ = EGL_NO_CONTEXT;
 };

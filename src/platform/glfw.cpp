@@ -95,7 +95,8 @@ void on_error(int /*code*/, const char* description) {
     std::replace(last_glfw_error().begin(), last_glfw_error().end(), '\n', ' ');
 }
 
-// glfwInit to glfwTerminate, shared by whoever needs it: both calls are process-wide.
+// glfwInit to glfwTerminate, which are process-wide. One connection for has_display() and the window: an X
+// server may reset itself when its last client leaves.
 class Library {
   public:
     Library() {
@@ -109,20 +110,14 @@ class Library {
     Library(const Library&) = delete;
     Library& operator=(const Library&) = delete;
 
-    static std::shared_ptr<Library> get() {
-        static std::weak_ptr<Library> instance;
-        auto library = instance.lock();
-        if (!library) {
-            library = std::make_shared<Library>();
-            instance = library;
-        }
-        return library;
-    }
+    // Starts GLFW on the first call; throws Error, and may be tried again.
+    static void require() { static const Library instance; }
 };
 
 class WindowHandle {
   public:
-    WindowHandle(glm::ivec2 size_px, const std::string& title) : library_(Library::get()) {
+    WindowHandle(glm::ivec2 size_px, const std::string& title) {
+        Library::require();
         glfwDefaultWindowHints();
         glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
         glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
@@ -150,7 +145,6 @@ class WindowHandle {
     GLFWwindow* get() const { return window_; }
 
   private:
-    std::shared_ptr<Library> library_;
     GLFWwindow* window_ = nullptr;
 };
 
@@ -349,7 +343,7 @@ std::unique_ptr<Platform> make_window(glm::ivec2 size_px, const std::string& tit
 
 bool has_display() {
     try {
-        Library::get();
+        Library::require();
         return true;
     } catch (const Error&) {
         return false;

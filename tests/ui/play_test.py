@@ -6,6 +6,7 @@ No fixed sleeps: what the app has seen is read from the .json that F12 writes be
 import json
 import os
 import pathlib
+import random
 import shutil
 import subprocess
 import sys
@@ -36,20 +37,24 @@ def wait_for(what, condition):
 
 
 class Display:
-    """An X server of its own, on a number that the server finds free."""
+    """An X server of its own. Its number is guarded by the server's lock file, which -displayfd would forgo:
+    servers that start at the same moment then take each other's sockets."""
 
     def __enter__(self):
-        read_end, write_end = os.pipe()
-        self.server = subprocess.Popen(
-            ["Xvfb", "-displayfd", str(write_end), "-screen", "0", "640x480x24", "-nolisten", "tcp"],
-            pass_fds=[write_end], stderr=subprocess.DEVNULL)
-        os.close(write_end)
-        with os.fdopen(read_end) as pipe:
-            number = pipe.readline().strip()
-        check(number, "Xvfb does not start")
-        self.environment = dict(os.environ, DISPLAY=f":{number}", LIBGL_ALWAYS_SOFTWARE="1")
-        self.environment.pop("WAYLAND_DISPLAY", None)
-        return self
+        for _ in range(20):
+            name = f":{random.randrange(100, 30000)}"
+            self.environment = dict(os.environ, DISPLAY=name, LIBGL_ALWAYS_SOFTWARE="1")
+            self.environment.pop("WAYLAND_DISPLAY", None)
+            self.server = subprocess.Popen(["Xvfb", name, "-screen", "0", "640x480x24", "-nolisten", "tcp",
+                                            "-noreset"],
+                                           stderr=subprocess.DEVNULL)
+            wait_for("Xvfb", lambda: self.server.poll() is not None or self.answers())
+            if self.server.poll() is None:
+                return self
+        fail("Xvfb does not start")
+
+    def answers(self):
+        return self.run("xdotool", "getdisplaygeometry").returncode == 0
 
     def __exit__(self, *_):
         self.server.terminate()
