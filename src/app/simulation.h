@@ -48,8 +48,6 @@ class Simulation {
     // Counts of some frames ago, refreshed without waiting a few times a second of play (by `frame` calls).
     const Census& recent_census() const;
     void refresh_census(double now_s);
-    // Bricks whose cells changed in the last step() or edit, 0 when nothing moved (read back without
-    // waiting).
 
     glm::ivec3 size_vox() const;
     std::uint64_t tick() const;
@@ -57,13 +55,14 @@ class Simulation {
     // Counts every step, edit or load that may have changed a cell.
     std::uint64_t version() const;
 
-    const gl::Texture& cells() const;  // R8UI, size_vox
-    const gl::Texture& brick_distance()
-        const;  // RG8UI, ceil(size / BRICK_SIDE): Chebyshev distance in bricks to the nearest
-                // brick that is not all air (r), not all full water (g); 0 in it.
-                // Bricks cut by the world's end are never "all full water".
-    const gl::Texture& brick_changed() const;  // R32UI, ceil(size / BRICK_SIDE): version() at which cells in
-                                               // it last changed (low 32 bits)
+    // R8UI, size_vox.
+    const gl::Texture& cells() const;
+    // RG8UI, ceil(size / 8): Chebyshev distance in bricks, up to BRICK_DISTANCE_MAX, to the nearest brick
+    // that is not all air (r), not all full water (g); 0 in it. Bricks cut by the world's end, and all beyond
+    // it, are never "all full water".
+    const gl::Texture& brick_distance() const;
+    // R32UI, ceil(size / 8): version() at which cells in it last changed (low 32 bits).
+    const gl::Texture& brick_changed() const;
 
     // Rebuilds shaders whose files changed; returns error texts (empty string: rebuilt).
     std::vector<std::string> poll_reload();
