@@ -50,7 +50,10 @@ bool is_smooth(Surface s) { return s.alpha < ALPHA_SMOOTH; }
 vec2 albedo_lookup(float cos_w, float alpha, float eta) {
     vec3 size = vec3(textureSize(albedo_table, 0));
     vec3 at = vec3(sqrt(clamp(cos_w, 0.0, 1.0)), sqrt(alpha), ((eta - 1.0) / (eta + 1.0) + 0.6) / 1.2);
-    return textureLod(albedo_table, (clamp(at, 0.0, 1.0) * (size - 1.0) + 0.5) / size, 0.0).rg;
+    vec2 albedo = textureLod(albedo_table, (clamp(at, 0.0, 1.0) * (size - 1.0) + 0.5) / size, 0.0).rg;
+    // A smooth interface needs no table, and between its samples near grazing the table errs most.
+    if (alpha < ALPHA_SMOOTH) albedo.r = fresnel_dielectric(cos_w, eta);
+    return albedo;
 }
 
 // Reflectance of the interface at one microfacet: dielectric and metal blended.
