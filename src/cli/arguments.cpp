@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
+#include <limits>
 
 #include "core/error.h"
 
@@ -11,6 +12,7 @@ namespace tarn {
 namespace {
 
 constexpr int picture_side_max_px = 16384;
+constexpr std::int64_t ticks_max = 1'000'000'000'000;
 
 glm::ivec2 parse_size(const std::string& text) {
     const char* const end = text.data() + text.size();
@@ -67,7 +69,8 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
         auto* option = command->add_option(
             "--scene", arguments.scene, "Built-in name (see `tarn scenes`) or a scene file ending in .json");
         if (required) option->required();
-        command->add_option("--seed", arguments.seed, "Seed in place of the scene's");
+        command->add_option("--seed", arguments.seed, "Seed in place of the scene's")
+            ->check(CLI::Range(std::int64_t{0}, std::int64_t{std::numeric_limits<std::uint32_t>::max()}));
         command->add_option("--set", arguments.set, "key=value, repeatable; see `tarn settings`")
             ->allow_extra_args(false);
     };
@@ -89,7 +92,8 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
     picture_options(render);
     render->add_option("--out", arguments.out, "F.png (tone-mapped sRGB) or F.exr (linear radiance)")
         ->required();
-    render->add_option("--ticks", arguments.ticks, "Simulation ticks before the first frame");
+    render->add_option("--ticks", arguments.ticks, "Simulation ticks before the first frame")
+        ->check(CLI::Range(std::int64_t{0}, ticks_max));
     auto* frames =
         render
             ->add_option("--frames", arguments.frames, "Frames, with history and filter; the last is written")
@@ -105,7 +109,9 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
 
     CLI::App* simulate = app.add_subcommand("simulate", "Run the simulation without a picture");
     scene_options(simulate, true);
-    simulate->add_option("--ticks", arguments.ticks, "Simulation ticks")->required();
+    simulate->add_option("--ticks", arguments.ticks, "Simulation ticks")
+        ->required()
+        ->check(CLI::Range(std::int64_t{0}, ticks_max));
     simulate->add_option("--cells", arguments.cells, "Write material ids as .npy: uint8, shape (z, y, x)");
     simulate->add_option("--stats", arguments.stats, "Write counts, times and settings as JSON");
 
@@ -113,13 +119,16 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
     app.add_subcommand("settings", "List every setting: key, range, default, help");
     app.add_subcommand("doctor", "Check the driver and run a self-test; exit code 0 or 1");
 
+    const auto named = [&](const CLI::App* command) { return command->check_name(argv[1]); };
+    if (argc > 1 && *argv[1] != '-' && app.get_subcommands(named).empty())
+        fail("{}: no such command; allowed: play, render, simulate, scenes, settings, doctor", argv[1]);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& help) {
         app.exit(help);
         return std::nullopt;
     } catch (const CLI::ParseError& error) {
-        fail("{}; `tarn --help` lists what is allowed", one_line(error.what()));
+        fail("{}; `tarn --help` and `tarn COMMAND --help` list what is allowed", one_line(error.what()));
     }
     arguments.command = app.get_subcommands().front()->get_name();
     if (!size.empty()) arguments.size_px = parse_size(size);
