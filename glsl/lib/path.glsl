@@ -12,6 +12,7 @@ const int OPTION_SUN_THROUGH_WATER = 1;
 const int OPTION_CAUSTICS = 2;
 const int OPTION_UNIFORM_DIFFUSE = 4;
 const int OPTION_JITTER = 8;
+const int OPTION_STRAIGHT_SUNLIGHT = 16;
 
 bool option(int bit) { return (frame.trace_options.w & bit) != 0; }
 
@@ -25,6 +26,9 @@ const int SUN_BY_CHANCE = 4;    // nothing but chance finds it: a caustic
 
 // Of each of x and z when the sun is sampled through the water's surface; the rest is the top.
 const float SIDE_FACE_PROBABILITY = 0.0625;
+
+// Interfaces that straight sunlight passes at most; a fall of water has some dozen.
+const int STRAIGHT_LEGS_MAX = 24;
 
 struct FirstSurface {
     vec3 position_vox;  // of the first hit; far along the ray where there is none
@@ -112,24 +116,34 @@ vec3 sampled_sun(Vertex v, bool through_water) {
     bool asked = (in_air || through_water) && max_component(light) > 0.0;
     RayStart ray = v.start;
     bool seen = false;
-    // A second leg where the first ended at the water's surface.
-    for (int leg = 0; leg < 2; ++leg) {
-        RayHit hit = trace_ray(ray, dir, asked ? frame.trace_limits.x : -1.0);
-        seen = hit.kind == HIT_NONE;
 #ifdef TRACE_CLEAR
-        bool leaves = through_water && leg == 0 && !seen && hit.beyond == MATERIAL_AIR && hit.axis == face &&
+    bool straight = in_air && option(OPTION_STRAIGHT_SUNLIGHT);
+    float ior_here = 1.0;
+    vec3 absorption = absorption_per_m(v.start.medium) * frame.trace_limits.y;
+    for (int leg = 0; leg < STRAIGHT_LEGS_MAX; ++leg) {
+        RayHit hit = trace_ray(ray, dir, asked ? frame.trace_limits.x : -1.0);
+        bool ends = hit.kind == HIT_NONE;
+        // From under water the one way on is out of the face that was aimed at.
+        bool leaves = through_water && leg == 0 && hit.beyond == MATERIAL_AIR && hit.axis == face &&
                       component(dir, face) * component(to_sun, face) > 0.0;
-        if (!leaves) {
-            seen = seen && in_air == (leg == 0);
+        if (ends || !(leaves || (straight && transmits(hit.beyond)))) {
+            seen = ends && (in_air || leg > 0);
             break;
         }
-        light *= exp(-absorption_per_m(MATERIAL_WATER) * (hit.t * frame.trace_limits.y));
-        ray = RayStart(hit_point(ray, dir, hit), hit.cell, MATERIAL_AIR);
-        dir = to_sun;
-#else
-        break;
-#endif
+        light *= exp(-absorption * hit.t);
+        if (straight) {
+            float ior_beyond = ior_of(hit.beyond);
+            light *= 1.0 - fresnel_dielectric(abs(component(dir, hit.axis)), ior_beyond / ior_here);
+            ior_here = ior_beyond;
+        } else {
+            dir = to_sun;
+        }
+        absorption = absorption_per_m(hit.beyond) * frame.trace_limits.y;
+        ray = RayStart(hit_point(ray, dir, hit), hit.cell, hit.beyond);
     }
+#else
+    seen = trace_ray(ray, dir, asked ? frame.trace_limits.x : -1.0).kind == HIT_NONE;
+#endif
     return asked && seen ? light : vec3(0.0);
 }
 #endif
@@ -173,6 +187,7 @@ vec3 trace_path(vec3 eye_vox, vec3 dir, out FirstSurface first) {
     bool through_smooth_water = option(OPTION_SUN_THROUGH_WATER) && water_roughness * water_roughness < ALPHA_SMOOTH;
 #endif
 
+    int diffuse_bounces = 0;
     for (int bounce = 0;; ++bounce) {
         RayHit hit = trace_ray(ray, dir, t_max);
 #ifdef TRACE_CLEAR
@@ -201,6 +216,8 @@ vec3 trace_path(vec3 eye_vox, vec3 dir, out FirstSurface first) {
         if (bounce >= frame.trace_options.x) break;
         v.wo = to_local(-dir, v.axis, v.side);
         v.surface = surface_of(beyond, hit.beyond, ray.medium, medium_ior);
+        bool delta = v.surface.transmissive && is_smooth(v.surface);
+        if (!delta && ++diffuse_bounces > frame.trace_options.z) break;
 
         bool light_sampled = false;  // the sun was, from here
         bool under_water = false;
@@ -208,7 +225,7 @@ vec3 trace_path(vec3 eye_vox, vec3 dir, out FirstSurface first) {
         under_water = ray.medium == MATERIAL_WATER && through_smooth_water && !v.surface.transmissive;
 #endif
 #ifdef TRACE_SUN
-        light_sampled = !(v.surface.transmissive && is_smooth(v.surface)) && (ray.medium == MATERIAL_AIR || under_water);
+        light_sampled = !delta && (ray.medium == MATERIAL_AIR || under_water);
         if (light_sampled) light += limited(throughput * sampled_sun(v, under_water), bounce + 1);
 #endif
 #ifdef TRACE_SKY

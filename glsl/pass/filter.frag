@@ -14,6 +14,9 @@ layout(location = 0) out vec4 out_radiance;
 
 const float KERNEL[3] = float[3](6.0 / 16.0, 4.0 / 16.0, 1.0 / 16.0);  // binomial
 
+// With fewer frames the brightness of a pixel behind water says nothing yet.
+const float FRAMES_OF_NOISE = 12.0;
+
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     ivec2 last = textureSize(radiance, 0) - 1;
@@ -48,8 +51,10 @@ void main() {
         if (abs(dot(texelFetch(position, tap, 0).xyz - here.xyz, n)) > plane_tolerance) continue;
         vec3 value = texelFetch(radiance, tap, 0).rgb;
         float w = KERNEL[abs(i)] * strength;
-        // Behind a clear surface lies a picture of its own: keep its edges by brightness.
-        if (clear) w *= exp(-abs(luminance(value) - center_luminance) / (0.1 + 0.25 * center_luminance));
+        // Behind a clear surface lies a picture of its own: keep its edges by brightness, once there is more to see
+        // than noise.
+        if (clear && center.a > FRAMES_OF_NOISE)
+            w *= exp(-abs(luminance(value) - center_luminance) / (0.1 + 0.25 * center_luminance));
         sum += w * value;
         weight_sum += w;
     }

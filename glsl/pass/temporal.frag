@@ -19,8 +19,10 @@ layout(location = 0) out vec4 out_radiance;  // rgb; a: frames kept, this one in
 
 layout(std430, binding = 0) buffer RejectedBlock { uint rejected_samples; };
 
-// History kept where cells changed: short enough to follow, long enough not to flicker.
+// History kept where cells changed: short enough to follow, long enough not to flicker. What shines through moving
+// water takes many bounces and is noisier by far than the lag that more frames bring.
 const float FRAMES_KEPT_NEAR_CHANGE = 3.0;
+const float FRAMES_KEPT_IN_MOVING_WATER = 10.0;
 // Distance from the plane of the first hit (vox) within which two hits are on one surface, plus its growth with
 // distance from the eye (float32 rounding of positions).
 const float PLANE_TOLERANCE_VOX = 0.01;
@@ -74,7 +76,8 @@ void main() {
     if (weight_sum > 0.01) {
         history /= weight_sum;
         count = history.a;
-        if (id != SURFACE_SKY_ID && changed_since(here.xyz - 0.5 * n)) count = min(count, FRAMES_KEPT_NEAR_CHANGE);
+        if (id != SURFACE_SKY_ID && changed_since(here.xyz - 0.5 * n))
+            count = min(count, id == MATERIAL_WATER ? FRAMES_KEPT_IN_MOVING_WATER : FRAMES_KEPT_NEAR_CHANGE);
         count = min(count, frame.history.y - 1.0);
     }
 #ifdef HISTORY_BLEND

@@ -22,7 +22,7 @@
     F(vec4, sky_zenith)        /* rgb radiance */                                                        \
     F(vec4, sky_horizon)       /* rgb radiance */                                                        \
     F(vec4, trace_limits)      /* max distance (vox), metres per voxel, firefly limit (0: none), unused */ \
-    F(ivec4, trace_options)    /* max bounces, roulette after (bounces), light sampling, unused */       \
+    F(ivec4, trace_options)    /* max bounces, roulette after (bounces), max diffuse bounces, OPTION bits */       \
     F(ivec4, size_px)          /* traced width, height; shown width, height */                           \
     F(vec4, history)           /* alpha (blend), cap (samples), unused, unused */                        \
     F(vec4, display)           /* exposure factor, tone map, unused, unused */

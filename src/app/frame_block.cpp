@@ -15,6 +15,7 @@ constexpr int option_sun_through_water = 1;
 constexpr int option_caustics = 2;
 constexpr int option_uniform_diffuse = 4;
 constexpr int option_jitter = 8;
+constexpr int option_straight_sunlight = 16;
 
 void set_sun(FrameBlock& block, const Settings& s) {
     const glm::dvec3 irradiance(s.sun_irradiance);
@@ -55,7 +56,8 @@ FrameBlock make_frame_block(const FrameInputs& in) {
     if (s.caustics) options |= option_caustics;
     if (s.diffuse_sampling == DiffuseSampling::Uniform) options |= option_uniform_diffuse;
     if (s.jitter) options |= option_jitter;
-    block.trace_options = {s.max_bounces, s.roulette_after, static_cast<int>(s.light_sampling), options};
+    if (s.straight_sunlight) options |= option_straight_sunlight;
+    block.trace_options = {s.max_bounces, s.roulette_after, s.max_diffuse_bounces, options};
     block.size_px = {in.traced_px, in.shown_px};
     block.history = {s.history_alpha, static_cast<float>(s.history_cap), 0, 0};
     block.display = {std::exp2(s.exposure_ev), s.tone_map == ToneMap::Linear ? 1.0f : 0.0f, 0, 0};

@@ -16,8 +16,10 @@
     INT(film_threshold, 3, 1, 16, SIMULATION, NONE,                                                          \
         "Quanta (sixteenths of a voxel) of water per cell that stay as a film instead of spreading.")        \
     CHOICE(Quality, quality, Balanced, LIGHT, NONE, "Preset of the settings below, from fast to exact.")     \
-    INT(max_bounces, 4, 0, 1024, LIGHT, IMAGE,                                                               \
+    INT(max_bounces, 24, 0, 1024, LIGHT, IMAGE,                                                               \
         "Scatterings along a path before it ends (refraction counts).")                                      \
+    INT(max_diffuse_bounces, 2, 0, 1024, LIGHT, IMAGE,                                                             \
+        "Of these, scatterings at rough surfaces: clear water may need many bounces where diffuse light needs few.")\
     REAL(max_distance_vox, 4096, 1, 10000000, LIGHT, IMAGE, "Longest ray in voxels; beyond it is sky.")      \
     INT(samples_per_pixel, 1, 1, 64, LIGHT, IMAGE, "Paths per pixel in each frame.")                         \
     REAL(resolution_scale, 1, 0.25, 1, LIGHT, TARGETS, "Traced pixels per shown pixel, along each side.")    \
@@ -29,6 +31,9 @@
            "Diffuse directions: by their cosine, or uniform over the hemisphere (more noise).")              \
     BOOL(sun_through_water, true, LIGHT, IMAGE,                                                              \
          "Connect points under smooth water to the sun through the surface, in closed form.")                \
+    BOOL(straight_sunlight, true, LIGHT, IMAGE,                                                                    \
+         "Let sunlight pass straight through water and glass to what lies in air behind: wrong in direction, but "    \
+         "without it such shadows are black unless caustics fill them.")                                           \
     BOOL(caustics, false, LIGHT, IMAGE,                                                                      \
          "Keep sunlight found by chance after mirrors and glass: right in the limit, sparkles before it.")   \
     INT(roulette_after, 3, 0, 1024, LIGHT, IMAGE, "Bounces before Russian roulette; 1024: none.")            \

@@ -76,7 +76,7 @@ TEST(Settings, JsonHoldsEverySetting) {
     const auto json = nlohmann::json::parse(settings_json(Settings{}));
     EXPECT_EQ(json.size(), setting_infos().size());
     EXPECT_EQ(json["water_tier"], "block");
-    EXPECT_EQ(json["max_bounces"], 4);
+    EXPECT_EQ(json["max_bounces"], 24);
 }
 
 }  // namespace
