@@ -1,17 +1,17 @@
-// One axis of the Chebyshev distance between bricks, a separable minimum: along x the distance to a brick that
-// holds something, then along y and z min over j of max(|i - j|, distance of j). An invocation a brick.
+// One axis of the Chebyshev distance between bricks, a separable minimum: along the first axis the distance to a
+// brick that holds something, along the others min over j of max(|i - j|, distance of j). An invocation a brick.
 #include "shared/bindings.h"
 
 layout(local_size_x = 8, local_size_y = 8, local_size_z = 1) in;
 
-layout(binding = BINDING_FIRST_INPUT) uniform usampler3D source;  // AXIS 0: occupancy; else the axis before
+layout(binding = BINDING_FIRST_INPUT) uniform usampler3D source;  // FIRST: occupancy; else the axis before
 layout(rg8ui, binding = 0) writeonly uniform uimage3D target;
 
 uniform ivec3 size_bricks;
 
 uvec2 at(ivec3 brick) {
     uvec2 value = texelFetch(source, brick, 0).rg;
-#if AXIS == 0
+#if FIRST
     return uvec2(BRICK_DISTANCE_MAX) * (uvec2(1u) - value);
 #else
     return value;

@@ -10,9 +10,10 @@ namespace {
 
 constexpr glm::ivec3 local_size{8, 8, 1};
 
-gl::Program distance_program(const char* axis) {
-    return gl::Program(
-        {.label = "brick distance", .compute = "pass/brick_distance.comp", .defines = {{"AXIS", axis}}});
+gl::Program distance_program(const char* axis, bool first) {
+    return gl::Program({.label = "brick distance",
+                        .compute = "pass/brick_distance.comp",
+                        .defines = {{"AXIS", axis}, {"FIRST", first ? "1" : "0"}}});
 }
 
 }  // namespace
@@ -23,7 +24,9 @@ glm::ivec3 bricks_of(glm::ivec3 size_vox) {
 
 BricksPass::BricksPass(glm::ivec3 size_bricks)
     : occupancy_program_({.label = "brick occupancy", .compute = "pass/brick_occupancy.comp"}),
-      distance_program_{distance_program("0"), distance_program("1"), distance_program("2")},
+      // Up and down first: from the open sky the ground is found there, and bounds the searches after.
+      distance_program_{distance_program("1", true), distance_program("0", false),
+                        distance_program("2", false)},
       occupancy_({.label = "brick occupancy", .format = GL_RG8UI, .size = size_bricks}),
       between_({.label = "brick distance, between axes", .format = GL_RG8UI, .size = size_bricks}),
       groups_("brick distance groups", 3 * sizeof(std::uint32_t)) {
@@ -51,9 +54,9 @@ void BricksPass::record(const Inputs& in, const Outputs& out, gl::Timers& timers
     const auto scope = timers.scope("distance");
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, groups_.name());
     const gl::Texture* source = &occupancy_;
-    for (int axis = 0; axis < 3; ++axis) {
-        const gl::Texture& target = axis == 1 ? between_ : out.brick_distance;
-        const gl::Program& program = distance_program_[axis];
+    for (int i = 0; i < 3; ++i) {
+        const gl::Texture& target = i == 1 ? between_ : out.brick_distance;
+        const gl::Program& program = distance_program_[i];
         program.set("size_bricks", size_bricks);
         source->bind(BINDING_FIRST_INPUT);
         target.bind_image(0, GL_WRITE_ONLY);

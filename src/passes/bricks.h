@@ -31,7 +31,7 @@ class BricksPass {
 
   private:
     gl::Program occupancy_program_;
-    gl::Program distance_program_[3];  // by axis
+    gl::Program distance_program_[3];  // one an axis, in the order they run
     gl::Texture occupancy_, between_;  // RG8UI
     mutable gl::Buffer groups_;        // of the distance programs, written by the occupancy program
 };

@@ -53,7 +53,7 @@ void FlowPass::dispatch(const gl::Program& program, const Box& region, const Inp
 FlowPass::Counts FlowPass::counts() const {
     std::array<std::uint32_t, 8> raw{};
     counters_.download(std::span<std::uint32_t>(raw));
-    const auto wide = [&](int i) { return raw[2 * i] | std::uint64_t{raw[2 * i + 1]} << 32; };
+    const auto wide = [&](std::size_t i) { return raw[2 * i] | std::uint64_t{raw[2 * i + 1]} << 32; };
     return {wide(0), wide(1), wide(2), wide(3)};
 }
 

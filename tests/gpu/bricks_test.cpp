@@ -30,6 +30,10 @@ int flat(glm::ivec3 at, glm::ivec3 size) {
     return at.x + size.x * (at.y + size.y * at.z);
 }
 
+std::size_t volume(glm::ivec3 size) {
+    return std::size_t{1} * size.x * size.y * size.z;
+}
+
 struct Obstacles {  // bricks, x fastest
     std::vector<char> matter, not_water;
 };
@@ -37,7 +41,7 @@ struct Obstacles {  // bricks, x fastest
 Obstacles find_obstacles(const Cells& cells) {
     const glm::ivec3 size = bricks_in(cells.size_vox());
     Obstacles found;
-    found.matter.assign(size.x * size.y * size.z, 0);
+    found.matter.assign(volume(size), 0);
     found.not_water = found.matter;
     for_cells(size * BRICK_SIDE, [&](glm::ivec3 cell) {
         const int brick = flat(cell / BRICK_SIDE, size);
@@ -59,7 +63,7 @@ int nearest(glm::ivec3 from, glm::ivec3 size, const std::vector<char>& obstacle,
 void expect_right_distances(const Simulation& simulation, const Cells& cells) {
     const glm::ivec3 size = bricks_in(cells.size_vox());
     ASSERT_EQ(simulation.brick_distance().size(), size);
-    std::vector<std::uint8_t> got(2 * size.x * size.y * size.z);
+    std::vector<std::uint8_t> got(2 * volume(size));
     simulation.brick_distance().download(std::span<std::uint8_t>(got), GL_RG_INTEGER, GL_UNSIGNED_BYTE);
     const Obstacles obstacles = find_obstacles(cells);
     for_cells(size, [&](glm::ivec3 brick) {
@@ -77,7 +81,7 @@ void expect_right_distances(const Simulation& simulation, const Cells& cells) {
 // The bricks in which `before` and `after` differ are stamped with the simulation's version; no others are.
 void expect_right_stamps(const Simulation& simulation, const Cells& before, const Cells& after) {
     const glm::ivec3 size = bricks_in(before.size_vox());
-    std::vector<std::uint32_t> stamps(size.x * size.y * size.z);
+    std::vector<std::uint32_t> stamps(volume(size));
     simulation.brick_changed().download(std::span<std::uint32_t>(stamps), GL_RED_INTEGER, GL_UNSIGNED_INT);
     std::vector<char> changed(stamps.size(), 0);
     for_cells(before.size_vox(), [&](glm::ivec3 cell) {

@@ -32,8 +32,8 @@ TEST(Schedule, axes_and_seeds_are_independent) {
         together += offset.x == offset.z ? 1 : 0;
         seeds_agree += offset == block_offset_vox(2, tick, glm::ivec3(2)) ? 1 : 0;
     }
-    EXPECT_NEAR(together, ticks / 4, 150);
-    EXPECT_NEAR(seeds_agree, ticks / 16, 80);
+    EXPECT_NEAR(together, ticks / 4.0, 150);
+    EXPECT_NEAR(seeds_agree, ticks / 16.0, 80);
 }
 
 TEST(Schedule, spring_shares_add_up_exactly) {
