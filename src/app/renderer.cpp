@@ -7,6 +7,7 @@
 
 #include "app/camera.h"
 #include "app/frame_block.h"
+#include "app/render_targets.h"
 #include "core/error.h"
 #include "gl/buffer.h"
 #include "gl/framebuffer.h"
@@ -35,61 +36,6 @@ gl::Texture make_albedo_texture() {
     texture.upload(std::span<const float>(albedo_table), GL_RG, GL_FLOAT);
     return texture;
 }
-
-// What one frame sees; two sets, current and previous.
-struct FrameTargets {
-    gl::Texture position, normal, material, history;
-
-    FrameTargets() = default;
-    explicit FrameTargets(glm::ivec2 size)
-        : position({.label = "position", .format = GL_RGBA32F, .size = {size, 0}}),
-          normal({.label = "normal", .format = GL_RGBA16F, .size = {size, 0}}),
-          material({.label = "material", .format = GL_R8UI, .size = {size, 0}}),
-          history({.label = "history", .format = GL_RGBA32F, .size = {size, 0}, .linear = true}) {}
-};
-
-// Sums of exact mode; two sets.
-struct Sums {
-    gl::Texture sum, correction;
-
-    Sums() = default;
-    explicit Sums(glm::ivec2 size)
-        : sum({.label = "sum", .format = GL_RGBA32F, .size = {size, 0}}),
-          correction({.label = "correction", .format = GL_RGBA32F, .size = {size, 0}}) {}
-};
-
-// Everything that depends on the picture's size.
-struct Targets {
-    glm::ivec2 traced_px, shown_px;
-    bool exact;
-    gl::Texture radiance, filtered[2], picture;
-    FrameTargets frames[2];
-    Sums sums[2];
-    gl::Framebuffer trace_target[2], history_target[2], filter_target[2], sums_target[2], picture_target;
-
-    Targets(glm::ivec2 traced, glm::ivec2 shown, bool exact_mode)
-        : traced_px(traced),
-          shown_px(shown),
-          exact(exact_mode),
-          radiance({.label = "radiance", .format = GL_RGBA32F, .size = {traced, 0}, .linear = true}),
-          picture({.label = "picture", .format = GL_RGBA8, .size = {shown, 0}}),
-          picture_target("picture", {&picture}) {
-        for (gl::Texture& texture : filtered)
-            texture =
-                gl::Texture({.label = "filtered", .format = GL_RGBA32F, .size = {traced, 0}, .linear = true});
-        for (int i = 0; i < 2; ++i) {
-            frames[i] = FrameTargets(traced);
-            trace_target[i] = gl::Framebuffer(
-                "trace", {&radiance, &frames[i].position, &frames[i].normal, &frames[i].material});
-            history_target[i] = gl::Framebuffer("history", {&frames[i].history});
-            filter_target[i] = gl::Framebuffer("filter", {&filtered[i]});
-            if (exact) sums[i] = Sums(traced);
-        }
-        if (!exact) return;
-        for (int i = 0; i < 2; ++i)
-            sums_target[i] = gl::Framebuffer("sums", {&sums[i].sum, &sums[i].correction, &filtered[0]});
-    }
-};
 
 class Stopwatch {
   public:
@@ -125,7 +71,7 @@ struct Renderer::Parts {
     std::optional<DisplayPass> display[2];  // [radiance only]
     std::optional<PickPass> pick[2];        // [through water]
 
-    std::optional<Targets> targets;
+    std::optional<RenderTargets> targets;
     FrameBlock block;   // of the last frame
     Settings settings;  // of the last frame
     int current = 0;    // which of the two sets the last frame wrote
