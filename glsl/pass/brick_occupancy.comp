@@ -11,6 +11,8 @@ layout(rg8ui, binding = 1) uniform uimage3D occupancy;
 
 // Indirect arguments of brick_distance.comp: 0 groups until something changed.
 layout(std430, binding = 0) writeonly buffer DistanceGroups { uint groups[3]; };
+// The version at which any cell last changed.
+layout(std430, binding = 1) writeonly buffer LastChange { uint last_change; };
 
 uniform ivec3 size_bricks;
 uniform uvec3 distance_groups;
@@ -20,6 +22,7 @@ void main() {
     ivec3 brick = ivec3(gl_GlobalInvocationID);
     if (any(greaterThanEqual(brick, size_bricks))) return;
     if (imageLoad(brick_changed, brick).r != version) return;
+    last_change = version;
 
     ivec3 first = brick * BRICK_SIDE;
     bool cut = any(greaterThan(first + BRICK_SIDE, textureSize(cells, 0)));

@@ -76,6 +76,7 @@ struct Renderer::Parts {
     Settings settings;  // of the last frame
     int current = 0;    // which of the two sets the last frame wrote
     bool has_history = false;
+    std::uint32_t world_change = 0;   // Simulation::last_change() seen by the last frame of exact mode
     std::uint64_t world_version = 0;  // seen by the last frame
     std::uint64_t frame_index = 0;
     std::uint64_t frames_kept = 0;
@@ -172,7 +173,11 @@ void Renderer::Parts::upload_frame(const Simulation& simulation, const Settings&
                            now.camera_pitch_deg != settings.camera_pitch_deg ||
                            now.camera_fov_deg != settings.camera_fov_deg;
     // Exact mode keeps no frame of another view or another world.
-    if (exact && (eye_moved || simulation.version() != world_version)) has_history = false;
+    if (exact) {
+        const std::uint32_t change = simulation.last_change();
+        if (eye_moved || change != world_change) has_history = false;
+        world_change = change;
+    }
     if (!has_history) frames_kept = 0;
     settings = now;
 

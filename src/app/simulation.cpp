@@ -276,6 +276,10 @@ std::uint64_t Simulation::tick() const {
 void Simulation::set_tick(std::uint64_t tick) {
     parts_->tick = tick;
 }
+std::uint32_t Simulation::last_change() const {
+    return parts_->bricks.last_change();
+}
+
 std::uint64_t Simulation::version() const {
     return parts_->version;
 }

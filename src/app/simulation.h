@@ -54,14 +54,17 @@ class Simulation {
     void set_tick(std::uint64_t tick);  // for tests of counter wrap
     // Counts every step, edit or load that may have changed a cell.
     std::uint64_t version() const;
+    // Low 32 bits of the version() at which any cell last changed: steps of a world at rest leave it. Waits
+    // for the GPU.
+    std::uint32_t last_change() const;
 
     // R8UI, size_vox.
     const gl::Texture& cells() const;
-    // RG8UI, ceil(size / 8): Chebyshev distance in bricks, up to BRICK_DISTANCE_MAX, to the nearest brick
+    // RG8UI, ceil(size / BRICK_SIDE): Chebyshev distance in bricks, up to BRICK_DISTANCE_MAX, to the nearest brick
     // that is not all air (r), not all full water (g); 0 in it. Bricks cut by the world's end, and all beyond
     // it, are never "all full water".
     const gl::Texture& brick_distance() const;
-    // R32UI, ceil(size / 8): version() at which cells in it last changed (low 32 bits).
+    // R32UI, ceil(size / BRICK_SIDE): version() at which cells in it last changed (low 32 bits).
     const gl::Texture& brick_changed() const;
 
     // Rebuilds shaders whose files changed; returns error texts (empty string: rebuilt).

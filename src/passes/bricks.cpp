@@ -29,6 +29,7 @@ BricksPass::BricksPass(glm::ivec3 size_bricks)
                         distance_program("2", false)},
       occupancy_({.label = "brick occupancy", .format = GL_RG8UI, .size = size_bricks}),
       between_({.label = "brick distance, between axes", .format = GL_RG8UI, .size = size_bricks}),
+      last_change_("last change", sizeof(std::uint32_t)),
       groups_("brick distance groups", 3 * sizeof(std::uint32_t)) {
     // A value that no brick has: the first call computes every distance.
     constexpr std::array<std::uint8_t, 2> unknown{255, 255};
@@ -41,6 +42,7 @@ void BricksPass::record(const Inputs& in, const Outputs& out, gl::Timers& timers
         const auto scope = timers.scope("bricks");
         groups_.clear();
         groups_.bind_storage(0);
+        last_change_.bind_storage(1);
         in.cells.bind(BINDING_CELLS);
         in.brick_changed.bind_image(0, GL_READ_ONLY);
         occupancy_.bind_image(1, GL_READ_WRITE);
@@ -66,6 +68,12 @@ void BricksPass::record(const Inputs& in, const Outputs& out, gl::Timers& timers
         source = &target;
     }
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
+}
+
+std::uint32_t BricksPass::last_change() const {
+    std::uint32_t version = 0;
+    last_change_.download(std::span(&version, 1));
+    return version;
 }
 
 void BricksPass::poll_reload(std::vector<std::string>& messages) {

@@ -27,13 +27,16 @@ class BricksPass {
 
     explicit BricksPass(glm::ivec3 size_bricks);
     void record(const Inputs& in, const Outputs& out, gl::Timers& timers) const;
+    // The `version` of the last call that found a changed brick. Waits for the GPU.
+    std::uint32_t last_change() const;
     void poll_reload(std::vector<std::string>& messages);
 
   private:
     gl::Program occupancy_program_;
     gl::Program distance_program_[3];  // one an axis, in the order they run
     gl::Texture occupancy_, between_;  // RG8UI
-    mutable gl::Buffer groups_;        // of the distance programs, written by the occupancy program
+    mutable gl::Buffer last_change_;
+    mutable gl::Buffer groups_;  // of the distance programs, written by the occupancy program
 };
 
 // ceil(size / BRICK_SIDE)

@@ -200,6 +200,33 @@ TEST_F(LightTest, TheUnseenSunOfAPointLightsTheFloorByItsIrradiance) {
     EXPECT_LT(picture.worst(0.5 / 3.14159265358979 * 2 * 0.5), 1e-6);
 }
 
+TEST_F(LightTest, ExactModeGoesOnOverTicksOfAWorldAtRestAndRestartsWithAnyByte) {
+    Scene scene = pillar("wall");
+    apply_quality(scene.settings, Quality::Exact);
+    gl::Timers timers;
+    Simulation simulation(scene, timers);
+    Renderer renderer(scene, timers);
+    const auto frame = [&] { renderer.render(simulation, scene.settings, {8, 8}); };
+    for (int i = 0; i < 4; ++i) {
+        simulation.step(1, scene.settings);
+        frame();
+    }
+    EXPECT_EQ(renderer.samples(), 4u);
+    EditHistory history;
+    history.begin_stroke();
+    simulation.apply({.center_vox = {3, 10, 3}, .material = MATERIAL_SAND}, history);
+    frame();
+    EXPECT_EQ(renderer.samples(), 1u);
+    frame();
+    EXPECT_EQ(renderer.samples(), 2u);
+    simulation.step(2, scene.settings);  // the sand falls: once at least in two ticks
+    frame();
+    EXPECT_EQ(renderer.samples(), 1u);
+    scene.settings.camera_yaw_deg += 1;
+    frame();
+    EXPECT_EQ(renderer.samples(), 1u);
+}
+
 TEST_F(LightTest, Fault8_AccuracyIsMeasuredAndGrowsWithSamples) {
     const Scene scene = pillar("wall");
     const Picture reference = picture_of(scene, 1024, {32, 32});
