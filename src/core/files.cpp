@@ -25,15 +25,19 @@ std::string read_text_file(const fs::path& path) {
 }
 
 void write_beside_and_rename(const fs::path& path, const std::function<void(const fs::path&)>& write) {
+    std::error_code ignored;
+    // A device or a pipe is written, never replaced.
+    if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) return write(path);
+    // A link stays one: its target is replaced.
+    const fs::path target = fs::is_symlink(path, ignored) ? fs::weakly_canonical(path, ignored) : path;
     // The extension stays last: image writers choose the format by it.
-    fs::path temporary = path;
+    fs::path temporary = target;
     temporary.replace_filename(
         fmt::format(".{}.{}.part{}", path.stem().string(), getpid(), path.extension().string()));
-    std::error_code ignored;
     try {
         write(temporary);
         std::error_code error;
-        fs::rename(temporary, path, error);
+        fs::rename(temporary, target, error);
         if (error) fail("{}: cannot write: {}", path.string(), error.message());
     } catch (...) {
         fs::remove(temporary, ignored);

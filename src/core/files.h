@@ -12,7 +12,8 @@ namespace tarn {
 // Throws Error naming the file and the system's reason.
 std::string read_text_file(const std::filesystem::path& path);
 
-// Calls `write(temporary)`, then renames the temporary over `path`; removes it if `write` throws.
+// Calls `write(temporary)`, then renames the temporary over `path`; removes it if `write` throws. Where
+// `path` is a device or a pipe: `write(path)`.
 void write_beside_and_rename(const std::filesystem::path& path,
                              const std::function<void(const std::filesystem::path&)>& write);
 

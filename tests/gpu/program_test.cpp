@@ -1,0 +1,98 @@
+// gl::Program refuses what would otherwise fail silently; the frame block has one layout in both languages.
+#include <gtest/gtest.h>
+
+#include <cstddef>
+
+#include "core/error.h"
+#include "gl/buffer.h"
+#include "gl/program.h"
+#include "gpu/gl_test.h"
+#include "shared/frame.h"
+
+namespace tarn {
+namespace {
+
+using ProgramTest = GlTest;
+
+std::string error_of(const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST_F(ProgramTest, frame_block_has_the_same_offsets_in_glsl_and_cpp) {
+    const gl::Program program({.label = "frame block", .compute = "tests/kernels/frame_block.comp"});
+    const GLuint block = glGetProgramResourceIndex(program.name(), GL_UNIFORM_BLOCK, "FrameBlock");
+    ASSERT_NE(block, GL_INVALID_INDEX);
+    constexpr GLenum block_properties[] = {GL_BUFFER_DATA_SIZE, GL_NUM_ACTIVE_VARIABLES};
+    GLint block_values[2]{};
+    glGetProgramResourceiv(program.name(), GL_UNIFORM_BLOCK, block, 2, block_properties, 2, nullptr,
+                           block_values);
+    EXPECT_EQ(block_values[0], static_cast<GLint>(sizeof(FrameBlock)));
+
+    int fields = 0;
+    const auto expect_offset = [&](const char* name, std::size_t offset) {
+        ++fields;
+        const std::string member = fmt::format("FrameBlock.{}", name);
+        const GLuint index = glGetProgramResourceIndex(program.name(), GL_UNIFORM, member.c_str());
+        ASSERT_NE(index, GL_INVALID_INDEX) << member;
+        constexpr GLenum property = GL_OFFSET;
+        GLint value = -1;
+        glGetProgramResourceiv(program.name(), GL_UNIFORM, index, 1, &property, 1, nullptr, &value);
+        EXPECT_EQ(value, static_cast<GLint>(offset)) << member;
+    };
+#define TARN_FIELD(type, name) expect_offset(#name, offsetof(FrameBlock, name));
+    TARN_FRAME_FIELDS(TARN_FIELD)
+#undef TARN_FIELD
+    EXPECT_EQ(block_values[1], fields);
+}
+
+TEST_F(ProgramTest, frame_block_values_arrive) {
+    const gl::Program program({.label = "frame block", .compute = "tests/kernels/frame_block.comp"});
+    FrameBlock block;
+    block.camera_position_vox.x = 1.5f;
+    block.counters.y = 4'000'000'000u;
+    block.display.w = -7;
+    gl::Buffer uniform("frame block", sizeof(block));
+    uniform.upload(std::span<const FrameBlock>(&block, 1));
+    uniform.bind_uniform(0);
+    gl::Buffer result("result", 4 * sizeof(float));
+    result.bind_storage(0);
+    program.dispatch({1, 1, 1});
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    float values[4]{};
+    result.download(std::span<float>(values));
+    EXPECT_EQ(values[0], 1.5f);
+    EXPECT_EQ(values[1], 4'000'000'000.0f);
+    EXPECT_EQ(values[2], -7.0f);
+}
+
+TEST_F(ProgramTest, unknown_uniform_is_an_error_that_names_it) {
+    const gl::Program program(
+        {.label = "display", .vertex = "pass/fullscreen.vert", .fragment = "pass/display.frag"});
+    const std::string error = error_of([&] { program.set("exposure_of_nothing", 1.0f); });
+    EXPECT_NE(error.find("exposure_of_nothing"), std::string::npos) << error;
+    EXPECT_NE(error.find("display"), std::string::npos) << error;
+}
+
+TEST_F(ProgramTest, shader_error_names_the_file_and_line) {
+    const std::string error = error_of(
+        [] { const gl::Program program({.label = "broken", .compute = "tests/kernels/broken.comp"}); });
+    EXPECT_NE(error.find("tests/kernels/broken.comp"), std::string::npos) << error;
+    EXPECT_NE(error.find("no_such_function"), std::string::npos) << error;
+    // The included file comes second; what follows the include counts on from it.
+    EXPECT_NE(error.find("0:8("), std::string::npos) << error;
+    EXPECT_NE(error.find("1: glsl/shared/hash.h"), std::string::npos) << error;
+}
+
+TEST_F(ProgramTest, missing_file_is_an_error_that_names_it) {
+    const std::string error =
+        error_of([] { const gl::Program program({.label = "none", .compute = "pass/none.comp"}); });
+    EXPECT_NE(error.find("glsl/pass/none.comp"), std::string::npos) << error;
+}
+
+}  // namespace
+}  // namespace tarn
