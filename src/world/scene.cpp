@@ -63,10 +63,10 @@ void read_materials(const JsonNode& list, MaterialTable& table) {
         }
         node.allow_only({"base_color", "roughness", "metallic", "ior", "absorption_per_m", "emission"});
         Material& material = table[*id];
-        const auto scalar = [&node](std::string_view key, double min, double max, float& value) {
+        const auto scalar = [&node = node](std::string_view key, double min, double max, float& value) {
             if (const auto child = node.find(key)) value = static_cast<float>(child->number(min, max));
         };
-        const auto color = [&node](std::string_view key, double max, glm::vec3& value) {
+        const auto color = [&node = node](std::string_view key, double max, glm::vec3& value) {
             if (const auto child = node.find(key)) value = glm::vec3(child->vec3(0, max));
         };
         color("base_color", 1, material.base_color);
