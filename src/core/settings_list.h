@@ -55,15 +55,15 @@
     REAL(camera_pitch_deg, 0, -90, 90, CAMERA, NONE, "Elevation of the view; grows upward.")                 \
     REAL(camera_fov_deg, 60, 1, 179, CAMERA, NONE, "Vertical field of view.")                                \
     REAL(water_ior, 1.333, 0.75, 3, WATER, IMAGE, "Refractive index of water.")                              \
-    COLOR(water_color, 0.7, 0.93, 0.96, 0.0001, 1, WATER, IMAGE,                                             \
+    COLOR(water_color, 0.7, 0.93, 0.96, 0.0001, 1, WATER, IMAGE,                                                   \
           "Colour of white light after one metre of water.")                                                 \
     REAL(sun_azimuth_deg, 0, -360, 360, SKY, IMAGE, "Where the sun stands, as a camera's yaw.")              \
     REAL(sun_elevation_deg, 45, -90, 90, SKY, IMAGE, "Height of the sun, as a camera's pitch.")              \
-    COLOR(sun_irradiance, 3, 2.8, 2.5, 0, 1000000, SKY, IMAGE,                                               \
+    COLOR(sun_irradiance, 4, 3.6, 3, 0, 1000000, SKY, IMAGE,                                                       \
           "Sunlight on a surface that faces it; black: no sun.")                                             \
     REAL(sun_angular_radius_deg, 0.27, 0, 90, SKY, IMAGE, "Angular radius of the sun; 0: sharp shadows.")    \
-    COLOR(sky_zenith, 0.3, 0.5, 0.9, 0, 1000000, SKY, IMAGE, "Radiance of the sky overhead.")                \
-    COLOR(sky_horizon, 0.8, 0.9, 1, 0, 1000000, SKY, IMAGE, "Radiance of the sky at and below the horizon.") \
+    COLOR(sky_zenith, 0.12, 0.28, 0.7, 0, 1000000, SKY, IMAGE, "Radiance of the sky overhead.")                    \
+    COLOR(sky_horizon, 0.5, 0.68, 0.95, 0, 1000000, SKY, IMAGE, "Radiance of the sky at and below the horizon.")   \
     REAL(exposure_ev, 0, -20, 20, DISPLAY, NONE, "Exposure in stops.")                                       \
     CHOICE(ToneMap, tone_map, Filmic, DISPLAY, NONE, "filmic: soft highlights; linear: clipped at white.")   \
     BOOL(overlay, true, DISPLAY, NONE, "Show times, ticks and counts in a corner.")                          \
