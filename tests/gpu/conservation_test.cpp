@@ -10,7 +10,7 @@ namespace {
 
 using ConservationTest = GlTest;
 
-TEST_F(ConservationTest, fault_1_water_neither_appears_nor_disappears_in_any_scene) {
+TEST_F(ConservationTest, Fault1_WaterNeitherAppearsNorDisappearsInAnyScene) {
     const std::vector<std::string> names = built_in_scenes();
     ASSERT_FALSE(names.empty());
     // zink over lavapipe takes long to read a 3D texture back; what a tick loses stays lost.
