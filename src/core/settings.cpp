@@ -62,7 +62,7 @@ constexpr Assignment quality_preset[] = {
     {"max_bounces", "64"},          {"max_diffuse_bounces", "6"},  {"samples_per_pixel", "2"},
     {"resolution_scale", "1"},      {"traversal", "distance"},     {"light_sampling", "sun"},
     {"diffuse_sampling", "cosine"}, {"sun_through_water", "true"}, {"straight_sunlight", "true"},
-    {"caustics", "false"},          {"roulette_after", "4"},       {"jitter", "true"},
+    {"caustics", "false"},          {"roulette_after", "4"},       {"jitter", "false"},
     {"firefly_limit", "50"},        {"history", "count"},          {"history_cap", "256"},
     {"filter", "edge_aware"},       {"filter_passes", "1"}};
 constexpr Assignment exact_preset[] = {{"max_bounces", "1024"},

@@ -16,10 +16,11 @@
     INT(film_threshold, 3, 1, 16, SIMULATION, NONE,                                                          \
         "Quanta (sixteenths of a voxel) of water per cell that stay as a film instead of spreading.")        \
     CHOICE(Quality, quality, Balanced, LIGHT, NONE, "Preset of the settings below, from fast to exact.")     \
-    INT(max_bounces, 24, 0, 1024, LIGHT, IMAGE,                                                               \
+    INT(max_bounces, 24, 0, 1024, LIGHT, IMAGE,                                                              \
         "Scatterings along a path before it ends (refraction counts).")                                      \
-    INT(max_diffuse_bounces, 2, 0, 1024, LIGHT, IMAGE,                                                             \
-        "Of these, scatterings at rough surfaces: clear water may need many bounces where diffuse light needs few.")\
+    INT(max_diffuse_bounces, 2, 0, 1024, LIGHT, IMAGE,                                                       \
+        "Of these, scatterings at rough surfaces: clear water may need many bounces where diffuse light "    \
+        "needs few.")                                                                                        \
     REAL(max_distance_vox, 4096, 1, 10000000, LIGHT, IMAGE, "Longest ray in voxels; beyond it is sky.")      \
     INT(samples_per_pixel, 1, 1, 64, LIGHT, IMAGE, "Paths per pixel in each frame.")                         \
     REAL(resolution_scale, 1, 0.25, 1, LIGHT, TARGETS, "Traced pixels per shown pixel, along each side.")    \
@@ -31,13 +32,16 @@
            "Diffuse directions: by their cosine, or uniform over the hemisphere (more noise).")              \
     BOOL(sun_through_water, true, LIGHT, IMAGE,                                                              \
          "Connect points under smooth water to the sun through the surface, in closed form.")                \
-    BOOL(straight_sunlight, true, LIGHT, IMAGE,                                                                    \
-         "Let sunlight pass straight through water and glass to what lies in air behind: wrong in direction, but "    \
-         "without it such shadows are black unless caustics fill them.")                                           \
+    BOOL(straight_sunlight, true, LIGHT, IMAGE,                                                              \
+         "Let sunlight pass straight through water and glass to what lies in air behind: wrong in "          \
+         "direction, but "                                                                                   \
+         "without it such shadows are black unless caustics fill them.")                                     \
     BOOL(caustics, false, LIGHT, IMAGE,                                                                      \
          "Keep sunlight found by chance after mirrors and glass: right in the limit, sparkles before it.")   \
     INT(roulette_after, 3, 0, 1024, LIGHT, IMAGE, "Bounces before Russian roulette; 1024: none.")            \
-    BOOL(jitter, false, LIGHT, IMAGE, "Spread samples over the pixel: smooth edges once averaged.")          \
+    BOOL(                                                                                                    \
+        jitter, false, LIGHT, IMAGE,                                                                         \
+        "Spread samples over the pixel: smooth edges once averaged. For exact; other histories blur by it.") \
     REAL(firefly_limit, 20, 0, 1000000, LIGHT, IMAGE,                                                        \
          "Upper limit of one sample's radiance after the first bounce; 0: none. Darkens rare bright paths.") \
     CHOICE(                                                                                                  \
@@ -55,15 +59,16 @@
     REAL(camera_pitch_deg, 0, -90, 90, CAMERA, NONE, "Elevation of the view; grows upward.")                 \
     REAL(camera_fov_deg, 60, 1, 179, CAMERA, NONE, "Vertical field of view.")                                \
     REAL(water_ior, 1.333, 0.75, 3, WATER, IMAGE, "Refractive index of water.")                              \
-    COLOR(water_color, 0.7, 0.93, 0.96, 0.0001, 1, WATER, IMAGE,                                                   \
+    COLOR(water_color, 0.7, 0.93, 0.96, 0.0001, 1, WATER, IMAGE,                                             \
           "Colour of white light after one metre of water.")                                                 \
     REAL(sun_azimuth_deg, 0, -360, 360, SKY, IMAGE, "Where the sun stands, as a camera's yaw.")              \
     REAL(sun_elevation_deg, 45, -90, 90, SKY, IMAGE, "Height of the sun, as a camera's pitch.")              \
-    COLOR(sun_irradiance, 4, 3.6, 3, 0, 1000000, SKY, IMAGE,                                                       \
+    COLOR(sun_irradiance, 4, 3.6, 3, 0, 1000000, SKY, IMAGE,                                                 \
           "Sunlight on a surface that faces it; black: no sun.")                                             \
     REAL(sun_angular_radius_deg, 0.27, 0, 90, SKY, IMAGE, "Angular radius of the sun; 0: sharp shadows.")    \
-    COLOR(sky_zenith, 0.12, 0.28, 0.7, 0, 1000000, SKY, IMAGE, "Radiance of the sky overhead.")                    \
-    COLOR(sky_horizon, 0.5, 0.68, 0.95, 0, 1000000, SKY, IMAGE, "Radiance of the sky at and below the horizon.")   \
+    COLOR(sky_zenith, 0.12, 0.28, 0.7, 0, 1000000, SKY, IMAGE, "Radiance of the sky overhead.")              \
+    COLOR(sky_horizon, 0.5, 0.68, 0.95, 0, 1000000, SKY, IMAGE,                                              \
+          "Radiance of the sky at and below the horizon.")                                                   \
     REAL(exposure_ev, 0, -20, 20, DISPLAY, NONE, "Exposure in stops.")                                       \
     CHOICE(ToneMap, tone_map, Filmic, DISPLAY, NONE, "filmic: soft highlights; linear: clipped at white.")   \
     BOOL(overlay, true, DISPLAY, NONE, "Show times, ticks and counts in a corner.")                          \
