@@ -176,9 +176,10 @@ vec3 trace_path(vec3 eye_vox, vec3 dir, out FirstSurface first) {
     int sun_state = SUN_SEEN;
     float pdf_last = 0.0;      // of the last scattering
     float sky_pdf_last = 0.0;  // with which sky sampling would have made the same direction; 0: it could not
-    bool enters = enter_world(eye_vox, dir, ray, t_entry);
-    if (enters && !transmits(ray.medium)) return vec3(0.0);  // the eye is inside a solid
-    float t_max = enters ? frame.trace_limits.x : -1.0;
+    if (!enter_world(eye_vox, dir, ray, t_entry))
+        return sky_radiance(dir) + (in_sun_disc(dir) ? frame.sun_radiance.rgb : vec3(0.0));
+    if (!transmits(ray.medium)) return vec3(0.0);  // the eye is inside a solid
+    float t_max = frame.trace_limits.x;
     float eye_ior = ior_of(ray.medium);
     float medium_ior = eye_ior;
 #ifdef TRACE_CLEAR
@@ -191,7 +192,7 @@ vec3 trace_path(vec3 eye_vox, vec3 dir, out FirstSurface first) {
     for (int bounce = 0;; ++bounce) {
         RayHit hit = trace_ray(ray, dir, t_max);
 #ifdef TRACE_CLEAR
-        if (enters) throughput *= exp(-absorption * hit.t);
+        throughput *= exp(-absorption * hit.t);
 #endif
         if (hit.kind == HIT_NONE) {
             float sky_weight = sky_pdf_last > 0.0 ? power_heuristic(pdf_last, sky_pdf_last) : 1.0;

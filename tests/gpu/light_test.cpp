@@ -200,6 +200,31 @@ TEST_F(LightTest, TheUnseenSunOfAPointLightsTheFloorByItsIrradiance) {
     EXPECT_LT(picture.worst(0.5 / 3.14159265358979 * 2 * 0.5), 1e-6);
 }
 
+TEST_F(LightTest, RaysThatMissTheWorldSeeTheSkyFromEverySide) {
+    Scene scene = scene_from(R"({"size": [64, 8, 20], "sun": {"irradiance": [0, 0, 0]},
+        "sky": {"zenith": [1, 1, 1], "horizon": [1, 1, 1]}, "materials": {"wall": {"base_color": [0, 0, 0]}},
+        "build": [{"box": {"min": [0, 0, 0], "max": [64, 8, 20], "material": "wall"}}]})");
+    struct Eye {
+        glm::vec3 position_vox;
+        float yaw_deg, pitch_deg;
+    };
+    // One eye a side of the black slab, its axis aimed at the slab's centre.
+    for (const Eye& eye :
+         {Eye{{32, 4, 120}, 0, 0}, Eye{{32, 4, -100}, 180, 0}, Eye{{-100, 4, 10}, 90, 0},
+          Eye{{164, 4, 10}, -90, 0}, Eye{{32, 110, 10}, 0, -90}, Eye{{32, -110, 10}, 0, 90}}) {
+        scene.settings.camera_position_vox = eye.position_vox;
+        scene.settings.camera_yaw_deg = eye.yaw_deg;
+        scene.settings.camera_pitch_deg = eye.pitch_deg;
+        scene.settings.camera_fov_deg = 100;
+        const Picture picture = picture_of(scene, 1, {65, 65});
+        EXPECT_EQ(picture.at(32, 32).x, 0) << "the slab is in the middle";
+        for (int i = 0; i < 65; ++i)
+            for (const auto& [x, y] : {std::pair{i, 0}, {i, 10}, {i, 54}, {i, 64}, {0, i}, {64, i}})
+                EXPECT_EQ(picture.at(x, y).x, 1)
+                    << x << ", " << y << " yaw " << eye.yaw_deg << " pitch " << eye.pitch_deg;
+    }
+}
+
 TEST_F(LightTest, ExactModeGoesOnOverTicksOfAWorldAtRestAndRestartsWithAnyByte) {
     Scene scene = pillar("wall");
     apply_quality(scene.settings, Quality::Exact);
