@@ -5,7 +5,7 @@
 
 #ifdef TRACE_COATED
 // E(cos, alpha, eta) of the GGX interface of a dielectric: r; its cosine-weighted mean Eavg: g. Axes: sqrt(cos),
-// roughness, (eta - 1) / (eta + 1) from -0.6 to 0.6 (src/reference/albedo.h makes it).
+// roughness, x of ALBEDO_ETA_RANGE (src/reference/albedo.h makes it).
 layout(binding = BINDING_ALBEDO_TABLE) uniform sampler3D albedo_table;
 #endif
 
@@ -22,6 +22,7 @@ struct BsdfSample {
     vec3 wi;       // z < 0: beyond the surface
     vec3 weight;   // f cos / density
     float pdf;     // per solid angle; 0 for a delta direction
+    bool diffuse;  // from a Lambert base or a rough interface, not from a mirror or a clear surface
 };
 
 // The surface between `medium` (of index `medium_ior`) on this side and `id` beyond, whose properties are `m`.
@@ -49,7 +50,9 @@ bool is_smooth(Surface s) { return s.alpha < ALPHA_SMOOTH; }
 #ifdef TRACE_COATED
 vec2 albedo_lookup(float cos_w, float alpha, float eta) {
     vec3 size = vec3(textureSize(albedo_table, 0));
-    vec3 at = vec3(sqrt(clamp(cos_w, 0.0, 1.0)), sqrt(alpha), ((eta - 1.0) / (eta + 1.0) + 0.6) / 1.2);
+    float s = (eta - 1.0) / (eta + 1.0);
+    float x = sign(s) * sqrt(abs(s) / ALBEDO_ETA_RANGE);
+    vec3 at = vec3(sqrt(clamp(cos_w, 0.0, 1.0)), sqrt(alpha), 0.5 * x + 0.5);
     vec2 albedo = textureLod(albedo_table, (clamp(at, 0.0, 1.0) * (size - 1.0) + 0.5) / size, 0.0).rg;
     // A smooth interface needs no table, and between its samples near grazing the table errs most.
     if (alpha < ALPHA_SMOOTH) albedo.r = fresnel_dielectric(cos_w, eta);
@@ -115,11 +118,13 @@ BsdfSample opaque_sample(Surface s, vec3 wo, vec3 u, bool uniform_diffuse) {
     result.wi = vec3(r * cos(phi), r * sin(phi), z);
     result.weight = s.base * (uniform_diffuse ? 2.0 * z : 1.0);
     result.pdf = uniform_diffuse ? 0.5 * INV_PI : z * INV_PI;
+    result.diffuse = true;
 #ifdef TRACE_COATED
     vec2 albedo_o = albedo_towards(s, wo.z);
     float p = interface_probability(s, albedo_o.r);
     if (p > 0.0) {
         bool mirror = u.z < p;
+        result.diffuse = !mirror || s.alpha > ALPHA_GLOSSY;
         if (mirror && is_smooth(s)) {
             result.wi = vec3(-wo.xy, wo.z);
             result.weight = opaque_fresnel(s, wo.z) / p;
@@ -141,6 +146,7 @@ BsdfSample opaque_sample(Surface s, vec3 wo, vec3 u, bool uniform_diffuse) {
 BsdfSample dielectric_sample(Surface s, vec3 wo, vec3 u) {
     BsdfSample result;
     result.pdf = 0.0;
+    result.diffuse = s.alpha > ALPHA_GLOSSY;
     vec3 h = vec3(0.0, 0.0, 1.0);
 #ifdef TRACE_ROUGH
     bool rough = !is_smooth(s) && s.eta != 1.0;

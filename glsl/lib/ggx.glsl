@@ -1,9 +1,10 @@
 // The GGX microfacet distribution with Smith's height-correlated shadowing (Walter et al. 2007, Heitz 2014), in the
 // local frame whose z is the normal. alpha = roughness^2.
 #include "lib/math.glsl"
+#include "shared/trace.h"
 
-// Below this alpha a surface is a perfect mirror or interface.
-const float ALPHA_SMOOTH = 1e-3;
+// Above this alpha a reflection counts as diffuse where diffuse bounces are counted: it shows light, not a picture.
+const float ALPHA_GLOSSY = 0.25;
 
 float ggx_d(vec3 h, float alpha) {
     if (h.z <= 0.0) return 0.0;

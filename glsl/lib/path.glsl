@@ -2,17 +2,11 @@
 // does not contain costs nothing: TRACE_CLEAR (water or glass), TRACE_ROUGH (some of it rough), TRACE_COATED (opaque
 // materials with an interface, metals), TRACE_SUN and TRACE_SKY (light sampling).
 #include "shared/frame.h"
+#include "shared/trace.h"
 #include "lib/bsdf.glsl"
 #include "lib/rng.glsl"
 #include "lib/sky.glsl"
 #include "lib/traversal.glsl"
-
-// Bits of frame.trace_options.w, as frame_block.cpp sets them.
-const int OPTION_SUN_THROUGH_WATER = 1;
-const int OPTION_CAUSTICS = 2;
-const int OPTION_UNIFORM_DIFFUSE = 4;
-const int OPTION_JITTER = 8;
-const int OPTION_STRAIGHT_SUNLIGHT = 16;
 
 bool option(int bit) { return (frame.trace_options.w & bit) != 0; }
 
@@ -36,7 +30,6 @@ struct FirstSurface {
     float distance_vox;
     uint material;      // id; SURFACE_SKY for sky
 };
-const uint SURFACE_SKY = 255u;
 
 // World axes to the local frame whose z is the axis of the normal, and back; side: the normal's sign.
 vec3 to_local(vec3 v, int axis, float side) {
@@ -117,7 +110,8 @@ vec3 sampled_sun(Vertex v, bool through_water) {
     RayStart ray = v.start;
     bool seen = false;
 #ifdef TRACE_CLEAR
-    bool straight = in_air && option(OPTION_STRAIGHT_SUNLIGHT);
+    // With caustics the same light is found by chance: not twice.
+    bool straight = in_air && option(OPTION_STRAIGHT_SUNLIGHT) && !option(OPTION_CAUSTICS);
     float ior_here = 1.0;
     vec3 absorption = absorption_per_m(v.start.medium) * frame.trace_limits.y;
     for (int leg = 0; leg < STRAIGHT_LEGS_MAX; ++leg) {
@@ -131,6 +125,7 @@ vec3 sampled_sun(Vertex v, bool through_water) {
             break;
         }
         light *= exp(-absorption * hit.t);
+        RayStart beyond = RayStart(hit_point(ray, dir, hit), hit.cell, hit.beyond);
         if (straight) {
             float ior_beyond = ior_of(hit.beyond);
             light *= 1.0 - fresnel_dielectric(abs(component(dir, hit.axis)), ior_beyond / ior_here);
@@ -139,7 +134,7 @@ vec3 sampled_sun(Vertex v, bool through_water) {
             dir = to_sun;
         }
         absorption = absorption_per_m(hit.beyond) * frame.trace_limits.y;
-        ray = RayStart(hit_point(ray, dir, hit), hit.cell, hit.beyond);
+        ray = beyond;
     }
 #else
     seen = trace_ray(ray, dir, asked ? frame.trace_limits.x : -1.0).kind == HIT_NONE;
@@ -218,7 +213,7 @@ vec3 trace_path(vec3 eye_vox, vec3 dir, out FirstSurface first) {
         v.wo = to_local(-dir, v.axis, v.side);
         v.surface = surface_of(beyond, hit.beyond, ray.medium, medium_ior);
         bool delta = v.surface.transmissive && is_smooth(v.surface);
-        if (!delta && ++diffuse_bounces > frame.trace_options.z) break;
+        if (!delta && diffuse_bounces >= frame.trace_options.z) break;
 
         bool light_sampled = false;  // the sun was, from here
         bool under_water = false;
@@ -240,6 +235,7 @@ vec3 trace_path(vec3 eye_vox, vec3 dir, out FirstSurface first) {
         if (v.surface.transmissive) next = dielectric_sample(v.surface, v.wo, u);
 #endif
         throughput *= next.weight;
+        diffuse_bounces += next.diffuse ? 1 : 0;
         bool transmitted = next.wi.z < 0.0;
         bool to_air = transmitted && hit.beyond == MATERIAL_AIR;
         ray = v.start;

@@ -4,18 +4,19 @@
 
 vec3 sky_radiance(vec3 dir) { return mix(frame.sky_horizon.rgb, frame.sky_zenith.rgb, max(0.0, dir.y)); }
 
-bool in_sun_disc(vec3 dir) { return frame.sun_irradiance.w > 0.0 && dot(dir, frame.sun_dir.xyz) >= frame.sun_dir.w; }
-
-bool sun_exists() { return frame.sun_radiance.w > 0.0; }
+// By the squared distance of unit vectors, 2 (1 - cos): a cosine near 1 has no digits left for a small disc.
+bool in_sun_disc(vec3 dir) {
+    vec3 d = dir - frame.sun_dir.xyz;
+    return frame.sun_irradiance.w > 0.0 && dot(d, d) <= 2.0 * frame.sun_dir.w;
+}
 
 // A direction to the sun, uniform over its disc; u in [0,1)^2.
 vec3 sample_sun(vec2 u) {
     if (frame.sun_irradiance.w <= 0.0) return frame.sun_dir.xyz;
-    float z = 1.0 - u.x * (1.0 - frame.sun_dir.w);
-    // 1 - z^2 without cancellation for a small disc.
-    float r = sqrt(max(0.0, u.x * (1.0 - frame.sun_dir.w) * (1.0 + z)));
+    float versine = u.x * frame.sun_dir.w;
+    float r = sqrt(max(0.0, versine * (2.0 - versine)));
     float phi = 2.0 * PI * u.y;
-    return normalize(basis_around(frame.sun_dir.xyz) * vec3(r * cos(phi), r * sin(phi), z));
+    return normalize(basis_around(frame.sun_dir.xyz) * vec3(r * cos(phi), r * sin(phi), 1.0 - versine));
 }
 
 // Radiance over density of a sample_sun direction; for a point sun the irradiance.

@@ -1,7 +1,9 @@
-// One direction of a separable 5-tap blur. Gaussian: over everything. Otherwise within one surface, on light with
-// the surface's colour divided out, and less the more frames a pixel has.
+// One direction of a separable 5-tap blur. Gaussian: over everything. Otherwise within one surface of one material, and
+// less the more frames a pixel has.
 #include "shared/frame.h"
-#include "lib/surfaces.glsl"
+#include "lib/materials.glsl"
+#include "lib/math.glsl"
+#include "shared/trace.h"
 
 layout(binding = 4) uniform sampler2D radiance;  // rgb; a: frames kept
 layout(binding = 5) uniform sampler2D position;
@@ -29,7 +31,7 @@ void main() {
     out_radiance = vec4(sum, center.a);
 #else
     uint id = texelFetch(material, at, 0).r;
-    if (id == SURFACE_SKY_ID) {
+    if (id == SURFACE_SKY) {
         out_radiance = center;
         return;
     }

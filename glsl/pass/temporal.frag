@@ -1,7 +1,9 @@
 // Reverse reprojection: the history of what this pixel shows, from four tested taps of the previous frame, blended
 // with the new frame.
 #include "lib/camera.glsl"
-#include "lib/surfaces.glsl"
+#include "lib/materials.glsl"
+#include "lib/math.glsl"
+#include "shared/trace.h"
 
 layout(binding = BINDING_BRICK_CHANGED) uniform usampler3D brick_changed;
 layout(binding = 4) uniform sampler2D radiance;
@@ -62,7 +64,7 @@ void main() {
             if (texelFetch(previous_material, tap, 0).r != id) continue;
             if (any(greaterThan(abs(texelFetch(previous_normal, tap, 0).xyz - n), vec3(0.01)))) continue;
             vec4 there = texelFetch(previous_position, tap, 0);
-            if (id != SURFACE_SKY_ID && abs(dot(there.xyz - here.xyz, n)) > tolerance) continue;
+            if (id != SURFACE_SKY && abs(dot(there.xyz - here.xyz, n)) > tolerance) continue;
             vec4 kept = texelFetch(previous_radiance, tap, 0);
             if (!is_finite(kept.rgb) || !is_finite(kept.a)) {
                 atomicAdd(rejected_samples, 1u);
@@ -76,7 +78,7 @@ void main() {
     if (weight_sum > 0.01) {
         history /= weight_sum;
         count = history.a;
-        if (id != SURFACE_SKY_ID && changed_since(here.xyz - 0.5 * n))
+        if (id != SURFACE_SKY && changed_since(here.xyz - 0.5 * n))
             count = min(count, id == MATERIAL_WATER ? FRAMES_KEPT_IN_MOVING_WATER : FRAMES_KEPT_NEAR_CHANGE);
         count = min(count, frame.history.y - 1.0);
     }

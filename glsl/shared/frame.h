@@ -2,6 +2,7 @@
 // ivec4 and uvec4, so that both layouts agree (a test compares GL_OFFSET with offsetof).
 #ifndef TARN_SHARED_FRAME
 #define TARN_SHARED_FRAME
+#include "shared/bindings.h"
 #include "shared/language.h"
 
 // A ray through normalised device coordinates (u, v) in [-1,1]^2 has the direction dir + u * right + v * up.
@@ -16,7 +17,7 @@
     F(vec4, previous_up)                                                                                 \
     F(ivec4, world_size_vox)   /* xyz; w: 1 while a previous frame exists */                             \
     F(uvec4, counters)         /* frame index, seed, samples per pixel, samples kept in exact mode */    \
-    F(vec4, sun_dir)           /* xyz: towards the sun; w: cosine of the angular radius */               \
+    F(vec4, sun_dir)           /* xyz: towards the sun; w: 1 - cosine of the angular radius */               \
     F(vec4, sun_irradiance)    /* rgb on a surface that faces it; w: solid angle in sr, 0 for a point */ \
     F(vec4, sun_radiance)      /* rgb of the disc, 0 for a point; w: 1 where there is a sun */           \
     F(vec4, sky_zenith)        /* rgb radiance */                                                        \
@@ -36,7 +37,7 @@ struct FrameBlock {
 };
 }  // namespace tarn
 #else
-layout(std140, binding = 0) uniform FrameBlock {
+layout(std140, binding = BINDING_FRAME) uniform FrameBlock {
 #define TARN_FIELD(type, name) type name;
     TARN_FRAME_FIELDS(TARN_FIELD)
 #undef TARN_FIELD

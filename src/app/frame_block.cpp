@@ -5,25 +5,20 @@
 #include <numbers>
 
 #include "app/camera.h"
+#include "shared/trace.h"
 
 namespace tarn {
 
 namespace {
 
-// As in glsl/lib/path.glsl.
-constexpr int option_sun_through_water = 1;
-constexpr int option_caustics = 2;
-constexpr int option_uniform_diffuse = 4;
-constexpr int option_jitter = 8;
-constexpr int option_straight_sunlight = 16;
-
 void set_sun(FrameBlock& block, const Settings& s) {
     const glm::dvec3 irradiance(s.sun_irradiance);
     const double radius = glm::radians(static_cast<double>(s.sun_angular_radius_deg));
     const bool exists = std::max({irradiance.x, irradiance.y, irradiance.z}) > 0;
-    block.sun_dir = glm::vec4(camera_basis(s.sun_azimuth_deg, s.sun_elevation_deg).dir, std::cos(radius));
     // 1 - cos r = 2 sin^2(r / 2): no cancellation for small discs.
-    const double solid_angle = 4 * std::numbers::pi * std::pow(std::sin(radius / 2), 2);
+    const double versine = 2 * std::pow(std::sin(radius / 2), 2);
+    block.sun_dir = glm::vec4(camera_basis(s.sun_azimuth_deg, s.sun_elevation_deg).dir, versine);
+    const double solid_angle = 2 * std::numbers::pi * versine;
     const double projected = std::numbers::pi * std::pow(std::sin(radius), 2);
     const bool disc = exists && radius > 0 && projected > 0;
     block.sun_irradiance = glm::vec4(s.sun_irradiance, disc ? solid_angle : 0.0);
@@ -52,11 +47,11 @@ FrameBlock make_frame_block(const FrameInputs& in) {
     block.sky_horizon = glm::vec4(s.sky_horizon, 0);
     block.trace_limits = {s.max_distance_vox, in.metres_per_voxel, s.firefly_limit, 0};
     int options = 0;
-    if (s.sun_through_water) options |= option_sun_through_water;
-    if (s.caustics) options |= option_caustics;
-    if (s.diffuse_sampling == DiffuseSampling::Uniform) options |= option_uniform_diffuse;
-    if (s.jitter) options |= option_jitter;
-    if (s.straight_sunlight) options |= option_straight_sunlight;
+    if (s.sun_through_water) options |= OPTION_SUN_THROUGH_WATER;
+    if (s.caustics) options |= OPTION_CAUSTICS;
+    if (s.diffuse_sampling == DiffuseSampling::Uniform) options |= OPTION_UNIFORM_DIFFUSE;
+    if (s.jitter) options |= OPTION_JITTER;
+    if (s.straight_sunlight) options |= OPTION_STRAIGHT_SUNLIGHT;
     block.trace_options = {s.max_bounces, s.roulette_after, s.max_diffuse_bounces, options};
     block.size_px = {in.traced_px, in.shown_px};
     block.history = {s.history_alpha, static_cast<float>(s.history_cap), 0, 0};

@@ -19,6 +19,7 @@
 #include "passes/trace_pass.h"
 #include "reference/albedo.h"
 #include "shared/bindings.h"
+#include "shared/trace.h"
 
 namespace tarn {
 
@@ -142,8 +143,7 @@ TraceFeatures Renderer::Parts::features(const Simulation& simulation) const {
         if (!may_contain(simulation, id)) continue;
         const Material& m = materials[id];
         const bool clear = id == MATERIAL_WATER || id == MATERIAL_GLASS;
-        // alpha = roughness^2; smooth below 1e-3, as in glsl/lib/ggx.glsl.
-        if (clear) features.rough |= m.roughness * m.roughness >= 1e-3f;
+        if (clear) features.rough |= m.roughness * m.roughness >= ALPHA_SMOOTH;
         if (!clear) features.coated |= m.ior != 1 || m.metallic > 0;
         features.clear |= clear;
     }

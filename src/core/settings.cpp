@@ -1,6 +1,7 @@
 #include "core/settings.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -20,83 +21,32 @@ constexpr const char* history_names[] = {"none", "blend", "count", "exact"};
 constexpr const char* filter_names[] = {"none", "gaussian", "edge_aware"};
 constexpr const char* tone_map_names[] = {"filmic", "linear"};
 
-struct Assignment {
+// What each quality sets: every one names the same keys, so that the last chosen counts alone. baseline is
+// the method of the 2023 course work (BRIEF): every voxel stepped through, uniform diffuse directions, no
+// light sampling, blend with a constant weight, Gaussian blur.
+struct PresetRow {
     const char* name;
-    const char* value;
+    std::array<const char*, 5> values;  // baseline, fast, balanced, quality, exact
 };
-
-// baseline is the method of the 2023 course work (BRIEF): every voxel stepped through, uniform diffuse
-// directions, no light sampling, blend with a constant weight, Gaussian blur.
-constexpr Assignment baseline_preset[] = {{"max_bounces", "8"},
-                                          {"max_diffuse_bounces", "1024"},
-                                          {"samples_per_pixel", "1"},
-                                          {"resolution_scale", "1"},
-                                          {"traversal", "voxel"},
-                                          {"light_sampling", "none"},
-                                          {"diffuse_sampling", "uniform"},
-                                          {"sun_through_water", "false"},
-                                          {"straight_sunlight", "false"},
-                                          {"caustics", "true"},
-                                          {"roulette_after", "1024"},
-                                          {"jitter", "false"},
-                                          {"firefly_limit", "0"},
-                                          {"history", "blend"},
-                                          {"history_alpha", "0.1"},
-                                          {"filter", "gaussian"},
-                                          {"filter_passes", "1"}};
-constexpr Assignment fast_preset[] = {
-    {"max_bounces", "16"},          {"max_diffuse_bounces", "1"},  {"samples_per_pixel", "1"},
-    {"resolution_scale", "0.5"},    {"traversal", "distance"},     {"light_sampling", "sun"},
-    {"diffuse_sampling", "cosine"}, {"sun_through_water", "true"}, {"straight_sunlight", "true"},
-    {"caustics", "false"},          {"roulette_after", "1"},       {"jitter", "false"},
-    {"firefly_limit", "10"},        {"history", "count"},          {"history_cap", "32"},
-    {"filter", "edge_aware"},       {"filter_passes", "1"}};
-constexpr Assignment balanced_preset[] = {
-    {"max_bounces", "24"},          {"max_diffuse_bounces", "2"},  {"samples_per_pixel", "1"},
-    {"resolution_scale", "1"},      {"traversal", "distance"},     {"light_sampling", "sun"},
-    {"diffuse_sampling", "cosine"}, {"sun_through_water", "true"}, {"straight_sunlight", "true"},
-    {"caustics", "false"},          {"roulette_after", "2"},       {"jitter", "false"},
-    {"firefly_limit", "20"},        {"history", "count"},          {"history_cap", "48"},
-    {"filter", "edge_aware"},       {"filter_passes", "1"}};
-constexpr Assignment quality_preset[] = {
-    {"max_bounces", "64"},          {"max_diffuse_bounces", "6"},  {"samples_per_pixel", "2"},
-    {"resolution_scale", "1"},      {"traversal", "distance"},     {"light_sampling", "sun"},
-    {"diffuse_sampling", "cosine"}, {"sun_through_water", "true"}, {"straight_sunlight", "true"},
-    {"caustics", "false"},          {"roulette_after", "4"},       {"jitter", "false"},
-    {"firefly_limit", "50"},        {"history", "count"},          {"history_cap", "256"},
-    {"filter", "edge_aware"},       {"filter_passes", "1"}};
-constexpr Assignment exact_preset[] = {{"max_bounces", "1024"},
-                                       {"max_diffuse_bounces", "1024"},
-                                       {"samples_per_pixel", "1"},
-                                       {"resolution_scale", "1"},
-                                       {"traversal", "distance"},
-                                       {"light_sampling", "sun"},
-                                       {"diffuse_sampling", "cosine"},
-                                       {"sun_through_water", "true"},
-                                       {"straight_sunlight", "false"},
-                                       {"caustics", "true"},
-                                       {"roulette_after", "4"},
-                                       {"jitter", "true"},
-                                       {"firefly_limit", "0"},
-                                       {"history", "exact"},
-                                       {"filter", "none"},
-                                       {"max_distance_vox", "10000000"}};
-
-std::span<const Assignment> preset(Quality quality) {
-    switch (quality) {
-        case Quality::Baseline:
-            return baseline_preset;
-        case Quality::Fast:
-            return fast_preset;
-        case Quality::Balanced:
-            return balanced_preset;
-        case Quality::Quality:
-            return quality_preset;
-        case Quality::Exact:
-            return exact_preset;
-    }
-    CHECK(false);
-}
+constexpr PresetRow presets[] = {{"max_bounces", {"8", "16", "24", "64", "1024"}},
+                                 {"max_diffuse_bounces", {"1024", "1", "2", "6", "1024"}},
+                                 {"max_distance_vox", {"4096", "4096", "4096", "4096", "10000000"}},
+                                 {"samples_per_pixel", {"1", "1", "1", "2", "1"}},
+                                 {"resolution_scale", {"1", "0.5", "1", "1", "1"}},
+                                 {"traversal", {"voxel", "distance", "distance", "distance", "distance"}},
+                                 {"light_sampling", {"none", "sun", "sun", "sun", "sun"}},
+                                 {"diffuse_sampling", {"uniform", "cosine", "cosine", "cosine", "cosine"}},
+                                 {"sun_through_water", {"false", "true", "true", "true", "true"}},
+                                 {"straight_sunlight", {"false", "true", "true", "true", "false"}},
+                                 {"caustics", {"true", "false", "false", "false", "true"}},
+                                 {"roulette_after", {"1024", "1", "2", "4", "4"}},
+                                 {"jitter", {"false", "false", "false", "false", "true"}},
+                                 {"firefly_limit", {"0", "10", "20", "50", "0"}},
+                                 {"history", {"blend", "count", "count", "count", "exact"}},
+                                 {"history_alpha", {"0.1", "0.1", "0.1", "0.1", "0.1"}},
+                                 {"history_cap", {"48", "32", "48", "256", "48"}},
+                                 {"filter", {"gaussian", "edge_aware", "edge_aware", "edge_aware", "none"}},
+                                 {"filter_passes", {"1", "1", "1", "1", "1"}}};
 
 double parse_number(const SettingInfo& info, std::string_view text) {
     double value = 0;
@@ -320,8 +270,8 @@ void set_assignment(Settings& settings, std::string_view assignment) {
 }
 
 void apply_quality(Settings& settings, Quality quality) {
-    for (const Assignment& assignment : preset(quality))
-        set_setting(settings, assignment.name, assignment.value);
+    for (const PresetRow& row : presets)
+        set_setting(settings, row.name, row.values[static_cast<std::size_t>(quality)]);
     settings.quality = quality;
 }
 

@@ -5,6 +5,8 @@
 #include <glm/glm.hpp>
 #include <numbers>
 
+#include "shared/trace.h"
+
 namespace tarn {
 
 namespace {
@@ -61,7 +63,8 @@ std::vector<float> make_albedo_table() {
     std::vector<float> table;
     table.reserve(std::size_t{2} * albedo_cos_count * albedo_roughness_count * albedo_eta_count);
     for (int e = 0; e < albedo_eta_count; ++e) {
-        const double s = albedo_eta_range * (2.0 * e / (albedo_eta_count - 1) - 1);
+        const double x = 2.0 * e / (albedo_eta_count - 1) - 1;
+        const double s = x * std::abs(x) * static_cast<double>(ALBEDO_ETA_RANGE);
         const double eta = (1 + s) / (1 - s);
         for (int r = 0; r < albedo_roughness_count; ++r) {
             const double roughness = static_cast<double>(r) / (albedo_roughness_count - 1);

@@ -10,12 +10,11 @@ namespace tarn {
 // points.
 double ggx_dielectric_albedo(double cos_o, double alpha, double eta, int n);
 
-// Axes of the table: sqrt(cos), roughness = sqrt(alpha), (eta - 1) / (eta + 1) in [-albedo_eta_range, +...];
-// both ends included.
+// Axes of the table: sqrt(cos), roughness = sqrt(alpha), x of ALBEDO_ETA_RANGE (glsl/shared/trace.h); both
+// ends included.
 constexpr int albedo_cos_count = 32;
 constexpr int albedo_roughness_count = 16;
 constexpr int albedo_eta_count = 25;
-constexpr double albedo_eta_range = 0.6;
 
 // Pairs (E(cos), Eavg), cos fastest, then roughness, then eta. Eavg integrates the table's own interpolation,
 // so that a white base under it conserves energy.

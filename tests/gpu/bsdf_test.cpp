@@ -152,14 +152,13 @@ TEST_F(BsdfTest, ABlackCoatedSurfaceReflectsTheAlbedoOfItsInterface) {
 TEST_F(BsdfTest, ExtremesGiveFiniteWeights) {
     for (const double alpha : {0.0, 1e-8, 9.9e-4, 1e-3, 1.0}) {
         for (const double cos_o : {1e-6, 1e-3, 1.0}) {
-            for (const double eta : {0.75, 1.0, 1.0001, 3.0, 4.0}) {
+            for (const double eta : {0.75, 1.0, 1.0001, 1.013, 1.5, 4.0}) {
                 for (const double metallic : {0.0, 0.5, 1.0}) {
                     const Means sampled = sample_means({cos_o, alpha, metallic, 0.8, eta});
                     EXPECT_EQ(sampled.not_finite, 0)
                         << alpha << " " << cos_o << " " << eta << " " << metallic;
-                    // The albedo table has no sample between eta 1 and 1.1: at grazing angles of a barely
-                    // refracting, nearly smooth coat it errs by up to a third.
-                    const double gain = eta == 1.0001 && cos_o <= 1e-3 ? 0.35 : 0.02;
+                    // At grazing angles albedo jumps from 0 to 1 as eta leaves 1; the table cannot follow.
+                    const double gain = eta == 1.0001 && cos_o <= 1e-3 ? 0.27 : 0.02;
                     EXPECT_LT(sampled.weight, 1 + 5 * sampled.error + gain)
                         << alpha << " " << cos_o << " " << eta << " " << metallic;
                 }

@@ -26,13 +26,20 @@ TEST_F(LightTest, FurnaceByBsdfAloneIsExactForEveryBounceCount) {
 }
 
 TEST_F(LightTest, FurnaceWithLightSamplingAndRouletteIsTheSameInTheMean) {
-    const Picture picture = picture_of(load_scene("furnace", Settings{}), 40, {64, 64}, [](Settings& s) {
-        s.max_bounces = 6;
-        s.light_sampling = LightSampling::SunAndSky;
-        s.roulette_after = 0;
-    });
-    EXPECT_NEAR(picture.mean().x, 1 - std::pow(0.5, 7), 4 * picture.standard_error());
-    EXPECT_LT(picture.standard_error(), 2.5e-3);
+    // A bright sun and sky outside the closed box: sampled at every vertex, they must never be seen.
+    for (const float radius_deg : {0.0f, 5.0f}) {
+        Scene scene = load_scene("furnace", Settings{});
+        scene.settings.sun_irradiance = glm::vec3(50);
+        scene.settings.sun_angular_radius_deg = radius_deg;
+        scene.settings.sky_zenith = scene.settings.sky_horizon = glm::vec3(7);
+        const Picture picture = picture_of(scene, 40, {64, 64}, [](Settings& s) {
+            s.max_bounces = 6;
+            s.light_sampling = LightSampling::SunAndSky;
+            s.roulette_after = 0;
+        });
+        EXPECT_NEAR(picture.mean().x, 1 - std::pow(0.5, 7), 4 * picture.standard_error());
+        EXPECT_LT(picture.standard_error(), 2.5e-3);
+    }
 }
 
 TEST_F(LightTest, Fault5_APathThatRunsOutOfBouncesAddsNothing) {
@@ -187,6 +194,50 @@ TEST_F(LightTest, TheSunThroughWaterAgreesWithChance) {
     const Picture connected = with(true);
     EXPECT_NEAR(connected.mean().x, chance.mean().x, 0.015 * chance.mean().x);
     EXPECT_GT(chance.mean().x, 0.1);
+}
+
+TEST_F(LightTest, AShadowsEdgeUnderWaterLiesWhereRefractionPutsIt) {
+    // A roof from x = 16 with its underside at y = 9; water from y = 1 to 5; the sun towards +x at 45
+    // degrees.
+    Scene scene = scene_from(R"({"size": [32, 16, 8],
+        "camera": {"position_vox": [8, 14, 4], "pitch_deg": -90, "fov_deg": 1.1},
+        "sky": {"zenith": [0, 0, 0], "horizon": [0, 0, 0]},
+        "materials": {"water": {"absorption_per_m": [0, 0, 0], "ior": 1.333}, "wall": {"base_color": [0.9, 0.9, 0.9]}},
+        "sun": {"irradiance": [3, 3, 3], "azimuth_deg": 90, "elevation_deg": 45, "angular_radius_deg": 0},
+        "build": [{"box": {"min": [0, 0, 0], "max": [32, 1, 8], "material": "wall"}},
+                  {"box": {"min": [0, 1, 0], "max": [32, 5, 8], "material": "water"}},
+                  {"box": {"min": [16, 9, 0], "max": [32, 10, 8], "material": "wall"}}]})");
+    // The last lit ray passes the roof's upper corner at (16, 10): it rises towards +x.
+    const double sin_t = std::sqrt(0.5) / 1.333;
+    const double in_water = 4 * sin_t / std::sqrt(1 - sin_t * sin_t);
+    const double edge = 16 - (10 - 5) - in_water;
+    const auto light_at = [&](double x) {
+        scene.settings.camera_position_vox.x = static_cast<float>(x);
+        return picture_of(scene, 16, {8, 8}, [](Settings& s) { s.max_diffuse_bounces = 1; }).mean().x;
+    };
+    const double lit = light_at(edge - 1.5);
+    EXPECT_GT(lit, 0.1);
+    EXPECT_NEAR(light_at(edge - 0.25), lit, 0.1 * lit);
+    EXPECT_LT(light_at(edge + 0.25), 0.1 * lit);
+}
+
+TEST_F(LightTest, ASmallSunsDiscHasItsIrradiance) {
+    // A mirror of a floor is not needed: a wide diffuse bounce is. The disc is looked at directly, in a
+    // narrow view.
+    for (const float radius_deg : {0.27f, 0.05f, 0.02f}) {
+        Scene scene = scene_from(R"({"size": [2, 2, 2], "camera": {"position_vox": [1, 1, 1], "yaw_deg": 30,
+            "pitch_deg": 40}, "sun": {"azimuth_deg": 30, "elevation_deg": 40, "irradiance": [2, 2, 2]},
+            "sky": {"zenith": [0, 0, 0], "horizon": [0, 0, 0]}})");
+        scene.settings.sun_angular_radius_deg = radius_deg;
+        scene.settings.camera_fov_deg = 4 * radius_deg;
+        if (scene.settings.camera_fov_deg < 1) scene.settings.camera_fov_deg = 1;
+        constexpr int side = 256;
+        const Picture picture = picture_of(scene, 16, {side, side});
+        const double half = std::tan(scene.settings.camera_fov_deg * 3.14159265358979 / 360);
+        // Nearly parallel rays: a pixel's solid angle is its area at distance 1.
+        const double irradiance = picture.mean().x * 4 * half * half;
+        EXPECT_NEAR(irradiance, 2, 0.03) << radius_deg;
+    }
 }
 
 TEST_F(LightTest, TheUnseenSunOfAPointLightsTheFloorByItsIrradiance) {

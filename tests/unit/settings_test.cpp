@@ -60,6 +60,19 @@ TEST(Settings, AQualityPresetSetsWhatItNamesAndPresetsDiffer) {
     }
 }
 
+TEST(Settings, TheQualityChosenLastCountsAlone) {
+    for (int a = 0; a < 5; ++a) {
+        for (int b = 0; b < 5; ++b) {
+            Settings direct;
+            apply_quality(direct, static_cast<Quality>(b));
+            Settings after;
+            apply_quality(after, static_cast<Quality>(a));
+            apply_quality(after, static_cast<Quality>(b));
+            EXPECT_EQ(after, direct) << a << " then " << b;
+        }
+    }
+}
+
 TEST(Settings, DifferenceTellsWhatAChangeAsksFor) {
     Settings a;
     Settings b;

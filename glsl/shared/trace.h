@@ -1,0 +1,25 @@
+// Constants that the path tracer and its set-up agree on; C++ and GLSL.
+#ifndef TARN_SHARED_TRACE
+#define TARN_SHARED_TRACE
+#include "shared/language.h"
+TARN_SHARED_BEGIN
+
+// Bits of frame.trace_options.w.
+TARN_CONSTANT int OPTION_SUN_THROUGH_WATER = 1;
+TARN_CONSTANT int OPTION_CAUSTICS = 2;
+TARN_CONSTANT int OPTION_UNIFORM_DIFFUSE = 4;
+TARN_CONSTANT int OPTION_JITTER = 8;
+TARN_CONSTANT int OPTION_STRAIGHT_SUNLIGHT = 16;
+
+// Below this alpha (roughness^2) a surface is a perfect mirror or interface.
+TARN_CONSTANT float ALPHA_SMOOTH = 1e-3f;
+
+// The albedo table's third axis: x in [-1,1] stands for (eta - 1) / (eta + 1) = x |x| ALBEDO_ETA_RANGE, so that its
+// samples crowd where coats barely refract and their albedo bends most.
+TARN_CONSTANT float ALBEDO_ETA_RANGE = 0.6f;
+
+// In place of a material's id where a ray meets the sky.
+TARN_CONSTANT TARN_UINT SURFACE_SKY = 255u;
+
+TARN_SHARED_END
+#endif
