@@ -43,6 +43,18 @@ TEST_F(HistoryTest, CountedHistoryIsTheMeanOfItsFramesUpToTheCap) {
     EXPECT_GT(red_variance(single.shoot({24, 16})), 0.01);
 }
 
+TEST_F(HistoryTest, ExactHistoryIsTheMeanOfAllFrames) {
+    Studio single(noisy_floor());
+    Studio exact(noisy_floor());
+    exact.settings().history = History::Exact;
+    Picture expected;
+    for (int frame = 0; frame < 20; ++frame) {
+        const Picture picture = single.shoot({24, 16});
+        expected = frame == 0 ? picture : mixed(expected, picture, 1.0 / (frame + 1));
+        EXPECT_LT(largest_difference(exact.shoot({24, 16}), expected), 1e-5) << frame;
+    }
+}
+
 TEST_F(HistoryTest, BlendedHistoryKeepsItsConstantWeight) {
     Studio single(noisy_floor());
     Studio blended(noisy_floor());

@@ -53,6 +53,10 @@ TEST_F(PictureTest, TheFilmicCurveRisesFromBlackToWhite) {
         last = picture.pixels[0];
     }
     EXPECT_EQ(last, 255);
+    // Whose square is beyond a float.
+    Studio glaring(shining_wall({1e30f, 3e38f, 0}));
+    glaring.shoot({1, 1});
+    EXPECT_EQ(glaring.renderer.read_picture().pixels, (std::vector<std::uint8_t>{255, 255, 0, 255}));
 }
 
 TEST_F(PictureTest, AScaledPictureHasTheShownSizeAndTheSameMean) {
