@@ -6,7 +6,7 @@ layout(binding = 4) uniform sampler2D radiance;
 
 layout(location = 0) out vec4 out_picture;
 
-// Fit of the ACES filmic curve (Narkowicz 2015); 0.6 is its exposure, by which 0.18 stays near 0.18.
+// Fit of the ACES filmic curve (Narkowicz 2015), with the exposure of 0.6 that is usual for it.
 vec3 filmic(vec3 x) {
     x *= 0.6;
     return clamp((x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);

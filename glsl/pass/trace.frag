@@ -27,11 +27,11 @@ void main() {
         vec3 radiance = trace_path(frame.camera_position_vox.xyz, normalize(dir), surface);
         if (i == 0u) first = surface;
         if (is_finite(radiance))
-            sum += radiance;
+            sum += radiance / float(count);
         else
             atomicAdd(rejected_samples, 1u);
     }
-    out_radiance = vec4(sum / float(count), 1.0);
+    out_radiance = vec4(sum, 1.0);
     out_position = vec4(first.position_vox, first.distance_vox);
     out_normal = vec4(first.normal, 0.0);
     out_material = first.material;
