@@ -121,7 +121,7 @@ const gl::Texture& App::frame(const Input& input) {
     ++frames_;
     if (actions.screenshot) write_screenshot();
     timers_.end_frame();
-    simulation_->refresh_census(now_s());
+    if (interactive) simulation_->refresh_census(now_s());
     if (interactive) draw_overlays(input);
     return picture;
 }

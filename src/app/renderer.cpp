@@ -1,5 +1,6 @@
 #include "app/renderer.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <map>

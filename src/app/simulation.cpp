@@ -17,7 +17,6 @@ namespace tarn {
 namespace {
 
 constexpr double census_interval_s = 0.25;
-constexpr int ticks_between_progress = 16;
 
 constexpr GLenum byte_layout = GL_RED_INTEGER;
 constexpr GLenum byte_type = GL_UNSIGNED_BYTE;
@@ -161,19 +160,15 @@ Simulation::Simulation(const Scene& scene, gl::Timers& timers)
 
 Simulation::~Simulation() = default;
 
-void Simulation::step(int n, const Settings& settings, const std::function<void(int)>& progress) {
+void Simulation::step(int n, const Settings& settings) {
     if (n <= 0) return;
     Parts& p = *parts_;
     ++p.version;
-    for (int done = 0; done < n;) {
-        const int end = std::min(n, done + ticks_between_progress);
+    {
         // Nothing between the ticks: one pair of time stamps for many.
         std::optional<gl::Timers::Scope> scope;
         if (!p.flows()) scope.emplace(p.timers, "step");
-        for (; done < end; ++done) p.tick_once(settings.water_tier, settings.film_threshold);
-        if (!progress) continue;
-        glFinish();
-        progress(done);
+        for (int i = 0; i < n; ++i) p.tick_once(settings.water_tier, settings.film_threshold);
     }
     p.update_bricks();
 }

@@ -2,7 +2,6 @@
 // passes; draws nothing.
 #pragma once
 #include <cstdint>
-#include <functional>
 #include <glm/glm.hpp>
 #include <memory>
 #include <vector>
@@ -31,8 +30,8 @@ class Simulation {
     Simulation(const Simulation&) = delete;
     Simulation& operator=(const Simulation&) = delete;
 
-    // n ticks, then the structures for changed bricks. `progress(done)` is called now and then.
-    void step(int n, const Settings& settings, const std::function<void(int)>& progress = {});
+    // n ticks, then the structures for changed bricks.
+    void step(int n, const Settings& settings);
 
     void apply(const Edit& edit, EditHistory& history);
     void write(const std::vector<CellChange>& changes);  // undo, redo

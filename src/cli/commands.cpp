@@ -31,11 +31,16 @@ void check_outputs(const Arguments& arguments) {
     }
 }
 
-void run_ticks(Simulation& simulation, const Settings& settings, std::uint64_t ticks) {
+// Waits for the GPU now and then: so that the bar shows what is done, and timer queries do not pile up.
+void run_ticks(Simulation& simulation, const Settings& settings, std::uint64_t ticks, gl::Timers& timers) {
     Progress progress("ticks", ticks);
     constexpr std::uint64_t chunk = 64;
-    for (std::uint64_t done = 0; done < ticks; done += chunk) {
-        simulation.step(static_cast<int>(std::min(chunk, ticks - done)), settings);
+    for (std::uint64_t done = 0; done < ticks;) {
+        const std::uint64_t n = std::min(chunk, ticks - done);
+        simulation.step(static_cast<int>(n), settings);
+        timers.end_frame();
+        timers.finish();
+        done += n;
         progress.show(done);
     }
 }
@@ -54,12 +59,14 @@ void write_picture(const std::string& path, const Renderer& renderer) {
 void render_to(const Arguments& arguments, Scene scene) {
     const Settings settings = scene.settings;
     const glm::ivec2 size = picture_size(arguments);
+    if (arguments.exact && arguments.spp % settings.samples_per_pixel != 0)
+        fail("--spp {}: not a multiple of samples_per_pixel={}; allowed: a multiple of it", arguments.spp,
+             settings.samples_per_pixel);
     int frames = arguments.frames;
-    if (arguments.exact)
-        frames = (arguments.spp + settings.samples_per_pixel - 1) / settings.samples_per_pixel;
+    if (arguments.exact) frames = arguments.spp / settings.samples_per_pixel;
     const auto platform = make_headless(size, frames);
     App app(std::move(scene), settings, {.interactive = false, .platform = platform.get()});
-    run_ticks(app.simulation(), settings, arguments.ticks);
+    run_ticks(app.simulation(), settings, arguments.ticks, app.timers());
     {
         Progress progress("frames", static_cast<std::uint64_t>(frames));
         std::uint64_t done = 0;
@@ -89,7 +96,7 @@ int run_simulate(const Arguments& arguments) {
     const auto platform = make_headless({1, 1}, 0);
     gl::Timers timers;
     Simulation simulation(scene, timers);
-    run_ticks(simulation, scene.settings, arguments.ticks);
+    run_ticks(simulation, scene.settings, arguments.ticks, timers);
     if (!arguments.cells.empty()) write_npy(arguments.cells, simulation.read_cells());
     const std::string stats =
         stats_json({.scene = scene, .simulation = simulation, .settings = scene.settings, .timers = timers});

@@ -85,7 +85,13 @@ bool check_light(Platform& platform) {
 }  // namespace
 
 int run_doctor() {
-    const auto platform = make_headless({32, 32}, 1);
+    std::unique_ptr<Platform> platform;
+    try {
+        platform = make_headless({32, 32}, 1);
+    } catch (const Error& error) {
+        report(false, error.what());
+        return 1;
+    }
     const gl::DriverInfo driver = gl::driver_info();
     fmt::print("driver {} / {} / {}\n", driver.vendor, driver.renderer, driver.version);
     bool ok = check_limits();

@@ -3,7 +3,7 @@
 
 namespace tarn {
 
-// Prints a line per check. 0: all good; 1: a check failed. Throws Error where there is no driver at all.
+// Prints a line per check. 0: all good; 1: a check failed. No driver at all is a failed check.
 int run_doctor();
 
 }  // namespace tarn

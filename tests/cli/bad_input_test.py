@@ -150,6 +150,11 @@ class BadDrivers(Case):
             self.refuse(arguments, "EGL", "4.5", **WITHOUT_DRIVER)
             self.refuse(arguments, "EGL", "4.5", LIBGL_DRIVERS_PATH="/nonexistent")
 
+    def test_doctor_without_a_driver_fails_a_check(self):
+        result = self.run_tarn("doctor", **WITHOUT_DRIVER)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("FAIL", result.stdout)
+
     def test_old_driver(self):
         self.write("a.png", "older")
         for version in ("3.3", "4.1", "4.4"):
