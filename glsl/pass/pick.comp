@@ -1,4 +1,4 @@
-// One ray of the eye: the first surface it meets. A single invocation.
+// One ray of the eye: the voxel around it, or else the first surface it meets. A single invocation.
 #include "lib/traversal.glsl"
 
 layout(local_size_x = 1) in;
@@ -16,6 +16,12 @@ void main() {
     pick.cell = ivec4(0);
     pick.normal = ivec4(0);
     if (!enter_world(frame.camera_position_vox.xyz, ray_dir, start, t_entry)) return;
+    if (start.medium != MATERIAL_AIR) {
+        // The eye sits in the voxel: no face lies before it.
+        pick.cell = ivec4(start.cell, 1);
+        pick.normal = ivec4(ivec3(0), int(cell_byte(start.cell)));
+        return;
+    }
     RayHit hit = trace_ray(start, ray_dir, frame.trace_limits.x);
     if (hit.kind == HIT_NONE) return;
     ivec3 normal = ivec3(0);

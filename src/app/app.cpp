@@ -196,21 +196,21 @@ void App::run_actions(const Actions& actions) {
     if (const auto changes = actions.undo ? history_.undo() : history_.redo()) simulation_->write(*changes);
 }
 
+Pick App::pick(glm::ivec2 size_px, glm::vec2 at_px, bool through_water) {
+    const Pick found = renderer_->pick(*simulation_, settings_, size_px, at_px, through_water);
+    // An eye under water would meet nothing but the water around it.
+    const bool within_water = found.hit && found.normal == glm::ivec3(0) && is_water(found.byte);
+    return within_water ? renderer_->pick(*simulation_, settings_, size_px, at_px, true) : found;
+}
+
 void App::edit(const Input& input) {
     const glm::vec2 at_px = captured_ ? glm::vec2(input.size_px) / 2.f : input.mouse_px;
     const View view(settings_, input.size_px);
-    if (input.was_pressed(MouseButton::Middle))
-        tools_.take_material(renderer_->pick(*simulation_, settings_, input.size_px, at_px, false));
-    Pick pick;
-    if (tools_.needs_pick(input)) {
-        pick =
-            renderer_->pick(*simulation_, settings_, input.size_px, at_px, tools_.brush.goes_through_water());
-        // An eye under water would meet nothing but the water around it.
-        if (pick.hit && pick.normal == glm::ivec3(0) && is_water(pick.byte))
-            pick = renderer_->pick(*simulation_, settings_, input.size_px, at_px, true);
-    }
+    if (input.was_pressed(MouseButton::Middle)) tools_.take_material(pick(input.size_px, at_px, false));
+    Pick picked;
+    if (tools_.needs_pick(input)) picked = pick(input.size_px, at_px, tools_.brush.goes_through_water());
     const Tools::Stroke stroke =
-        tools_.use(input, pick, {view.eye_vox(), view.dir_through(at_px)}, simulation_->tick());
+        tools_.use(input, picked, {view.eye_vox(), view.dir_through(at_px)}, simulation_->tick());
     if (stroke.begins) history_.begin_stroke();
     for (const Edit& e : stroke.edits) simulation_->apply(e, history_);
     if (tools_.aim()) {

@@ -53,6 +53,7 @@ class App {
     void poll_shaders();
     void change_settings(const Input& input, Actions& actions);
     void run_actions(const Actions& actions);
+    Pick pick(glm::ivec2 size_px, glm::vec2 at_px, bool through_water);
     void edit(const Input& input);
     glm::vec3 outline_color(const Brush& brush) const;  // linear
     void advance(const Input& input);

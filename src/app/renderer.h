@@ -16,7 +16,8 @@
 
 namespace tarn {
 
-// The first surface that a ray from the eye meets.
+// The voxel around the eye, be it of any medium but air; else the first surface that a ray from the eye
+// meets.
 struct Pick {
     bool hit = false;
     glm::ivec3 cell{0};    // the voxel hit
@@ -38,7 +39,7 @@ class Renderer {
     void reset_history();
 
     // What lies under the pixel `at_px` (from the top left) of a picture of `size_px`. Waits for the GPU.
-    // `through_water`: water is passed as if it were air.
+    // `through_water`: water is passed as if it were air, also by an eye within it.
     Pick pick(const Simulation& simulation, const Settings& settings, glm::ivec2 size_px, glm::vec2 at_px,
               bool through_water);
 

@@ -139,6 +139,72 @@ TEST_F(AppTest, MiddleClickTakesTheMaterialAndPlacesIt) {
     EXPECT_GT(count(app, MATERIAL_GRASS), grass);
 }
 
+TEST_F(AppTest, AnEyeInWaterOrStoneKnowsWhereItIs) {
+    Scene scene = meadow();
+    for (int z = 0; z < 32; ++z)
+        for (int y = 1; y < 15; ++y)
+            for (int x = 0; x < 32; ++x)
+                scene.cells.at({x, y, z}) = x < 16 ? MATERIAL_STONE : MATERIAL_WATER_FULL;
+    gl::Timers timers;
+    const Simulation simulation(scene, timers);
+    Renderer renderer(scene, timers);
+    Settings settings = scene.settings;
+    const auto pick = [&](glm::vec3 eye_vox, bool through_water) {
+        settings.camera_position_vox = eye_vox;
+        return renderer.pick(simulation, settings, size_px, glm::vec2(size_px) / 2.f, through_water);
+    };
+    const glm::ivec3 none(0);
+    const glm::ivec3 up(0, 1, 0);
+
+    const Pick in_stone = pick({8.5f, 12.5f, 16.5f}, true);
+    EXPECT_TRUE(in_stone.hit);
+    EXPECT_EQ(in_stone.cell, glm::ivec3(8, 12, 16));
+    EXPECT_EQ(in_stone.normal, none);
+    EXPECT_EQ(in_stone.byte, MATERIAL_STONE);
+    const Pick in_water = pick({20.5f, 12.5f, 16.5f}, false);
+    EXPECT_TRUE(in_water.hit);
+    EXPECT_EQ(in_water.cell, glm::ivec3(20, 12, 16));
+    EXPECT_EQ(in_water.normal, none);
+    EXPECT_EQ(in_water.byte, MATERIAL_WATER_FULL);
+    const Pick through = pick({20.5f, 12.5f, 16.5f}, true);
+    EXPECT_TRUE(through.hit);
+    EXPECT_EQ(through.cell, glm::ivec3(20, 0, 16));
+    EXPECT_EQ(through.normal, up);
+    EXPECT_EQ(through.byte, MATERIAL_GRASS);
+    const Pick above = pick({20.5f, 15.5f, 16.5f}, false);
+    EXPECT_EQ(above.cell, glm::ivec3(20, 14, 16));
+    EXPECT_EQ(above.normal, up);
+}
+
+TEST_F(AppTest, OneBuildsUnderWaterAndDigsOneselfOutOfStone) {
+    Scene scene = meadow();
+    for (int z = 0; z < 32; ++z)
+        for (int y = 1; y < 15; ++y)
+            for (int x = 0; x < 32; ++x)
+                scene.cells.at({x, y, z}) = x < 16 ? MATERIAL_STONE : MATERIAL_WATER_FULL;
+    scene.settings.camera_position_vox.x = 24.5f;
+    const std::uint64_t stone = take_census(scene.cells).voxels[MATERIAL_STONE];
+    App diver(scene, scene.settings, interactive());
+    play(diver, pressing(Key::Pause));
+    play(diver, clicking(MouseButton::Middle));
+    play(diver, clicking(MouseButton::Left));
+    EXPECT_EQ(diver.simulation().read_cell({24, 1, 16}), MATERIAL_GRASS)
+        << "taken from the ground, built on it";
+    play(diver, hands());
+    play(diver, pressing(Key::Digit1));
+    play(diver, clicking(MouseButton::Left));
+    EXPECT_GT(count(diver, MATERIAL_STONE), stone);
+
+    scene.settings.camera_position_vox.x = 6.5f;
+    App buried(scene, scene.settings, interactive());
+    play(buried, pressing(Key::Pause));
+    play(buried, clicking(MouseButton::Left));
+    EXPECT_EQ(buried.simulation().read_cells(), scene.cells) << "nothing is placed from inside a voxel";
+    play(buried, clicking(MouseButton::Right));
+    EXPECT_EQ(buried.simulation().read_cell({6, 12, 16}), MATERIAL_AIR);
+    EXPECT_LT(count(buried, MATERIAL_STONE), stone);
+}
+
 TEST_F(AppTest, PauseStepAndReload) {
     Scene scene = meadow();
     App app(scene, scene.settings, interactive());
