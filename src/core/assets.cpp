@@ -1,6 +1,7 @@
 #include "core/assets.h"
 
 #include <algorithm>
+#include <chrono>
 
 #include "core/error.h"
 #include "core/files.h"
@@ -51,7 +52,8 @@ std::int64_t asset_stamp(const std::string& path) {
     if (!file) return 0;
     std::error_code missing;
     const auto time = std::filesystem::last_write_time(*file, missing);
-    return missing ? 0 : std::int64_t{time.time_since_epoch().count()};
+    // Counted from 1970: the file clock's own counts are negative until 2174.
+    return missing ? 0 : std::int64_t{std::chrono::file_clock::to_sys(time).time_since_epoch().count()};
 }
 
 }  // namespace tarn

@@ -24,7 +24,7 @@ std::string read_asset(const std::string& path);
 // Paths of the embedded assets below `folder`, sorted.
 std::vector<std::string> list_assets(const std::string& folder);
 
-// Modification count of the file behind an asset (0 if embedded or missing).
+// When the file behind an asset was written: above 0, and grows with time; 0 if embedded or missing.
 std::int64_t asset_stamp(const std::string& path);
 
 }  // namespace tarn

@@ -11,8 +11,9 @@ namespace tarn::gl {
 namespace {
 
 void append_file(const std::string& path, ShaderText& out) {
-    // Kernels of tests stay beside them and are read from the source tree only.
-    const std::string asset = path.starts_with("tests/") ? path : "glsl/" + path;
+    // Kernels of tests stay beside them, or in a folder of the test's, and are read from disk only.
+    const bool of_test = path.starts_with("tests/") || path.starts_with('/');
+    const std::string asset = of_test ? path : "glsl/" + path;
     if (std::find(out.files.begin(), out.files.end(), asset) != out.files.end()) return;
     const std::size_t index = out.files.size();
     out.files.push_back(asset);
@@ -206,6 +207,11 @@ std::optional<std::string> Program::poll_reload() {
     stamp_ = stamp;
     try {
         Built built = build(desc_);
+        for (const auto& [uniform, location] : locations_) {
+            if (glGetUniformLocation(built.name, uniform.c_str()) >= 0) continue;
+            glDeleteProgram(built.name);
+            fail("{}: the edited program has no active uniform {}", desc_.label, uniform);
+        }
         glDeleteProgram(std::exchange(name_, built.name));
         files_ = std::move(built.files);
         locations_.clear();

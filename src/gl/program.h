@@ -15,7 +15,7 @@ namespace tarn::gl {
 
 struct ProgramDesc {
     const char* label = "";
-    std::string compute{};             // path below glsl/ (a test's kernel: tests/kernels/...), or
+    std::string compute{};             // path below glsl/ (a test's: tests/kernels/... or absolute), or
     std::string vertex{}, fragment{};  // both
     std::vector<std::pair<std::string, std::string>> defines{};
 };
@@ -59,7 +59,8 @@ class Program {
     void set(const char* uniform, glm::vec3 value) const;
     void set(const char* uniform, glm::vec4 value) const;
 
-    // Nothing changed: nullopt. Rebuilt: "". Failed: the error, and the old program stays.
+    // Nothing changed: nullopt. Rebuilt: "". Failed, or without a uniform that was set before: the error, and
+    // the old program stays.
     std::optional<std::string> poll_reload();
 
   private:

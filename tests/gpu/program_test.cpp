@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cstddef>
+#include <filesystem>
 
 #include "core/error.h"
+#include "core/files.h"
 #include "gl/buffer.h"
 #include "gl/program.h"
 #include "gpu/gl_test.h"
@@ -92,6 +94,73 @@ TEST_F(ProgramTest, missing_file_is_an_error_that_names_it) {
     const std::string error =
         error_of([] { const gl::Program program({.label = "none", .compute = "pass/none.comp"}); });
     EXPECT_NE(error.find("glsl/pass/none.comp"), std::string::npos) << error;
+}
+
+// A kernel that is edited while its program runs: it stores `factor` times 3, or what the edit makes of it.
+class ReloadTest : public ProgramTest {
+  protected:
+    ReloadTest() { edit("factor * 3"); }
+    ~ReloadTest() override { std::filesystem::remove(path_); }
+
+    void edit(const std::string& value) {
+        write_file(path_,
+                   "layout(local_size_x = 1) in;\n"
+                   "layout(std430, binding = 0) buffer Result { int result; };\n"
+                   "uniform int factor;\n"
+                   "void main() { result = " +
+                       value + "; }\n");
+        // Two edits within the file system's clock tick are one to it.
+        written_ += std::chrono::seconds(1);
+        std::filesystem::last_write_time(path_, written_);
+    }
+    static int run(const gl::Program& program) {
+        gl::Buffer buffer("result", sizeof(int));
+        buffer.bind_storage(0);
+        program.set("factor", 7);
+        program.dispatch({1, 1, 1});
+        int result = 0;
+        buffer.download(std::span(&result, 1));
+        return result;
+    }
+
+    std::filesystem::path path_ = std::filesystem::path(testing::TempDir()) / "tarn_reload.comp";
+    std::filesystem::file_time_type written_ = std::filesystem::file_time_type::clock::now();
+};
+
+TEST_F(ReloadTest, an_edit_takes_effect_once) {
+    gl::Program program({.label = "edited", .compute = path_.string()});
+    EXPECT_EQ(run(program), 21);
+    EXPECT_FALSE(program.poll_reload().has_value());
+    edit("factor * 4");
+    EXPECT_EQ(program.poll_reload(), "");
+    EXPECT_EQ(run(program), 28);
+    EXPECT_FALSE(program.poll_reload().has_value());
+}
+
+TEST_F(ReloadTest, an_edit_that_does_not_compile_keeps_the_program) {
+    gl::Program program({.label = "edited", .compute = path_.string()});
+    edit("no_such_name");
+    const std::string error = program.poll_reload().value_or("nothing");
+    EXPECT_NE(error.find("no_such_name"), std::string::npos) << error;
+    EXPECT_NE(error.find(path_.string()), std::string::npos) << error;
+    EXPECT_EQ(run(program), 21);
+    EXPECT_FALSE(program.poll_reload().has_value()) << "one message an edit";
+    edit("factor * 5");
+    EXPECT_EQ(program.poll_reload(), "");
+    EXPECT_EQ(run(program), 35);
+}
+
+TEST_F(ReloadTest, an_edit_that_loses_a_uniform_keeps_the_program) {
+    gl::Program program({.label = "edited", .compute = path_.string()});
+    EXPECT_EQ(run(program), 21);
+    edit("8");
+    const std::string error = program.poll_reload().value_or("nothing");
+    EXPECT_NE(error.find("factor"), std::string::npos) << error;
+    EXPECT_NE(error.find("edited"), std::string::npos) << error;
+    EXPECT_EQ(run(program), 21);
+    edit("factor * 6");
+    EXPECT_EQ(program.poll_reload(), "");
+    EXPECT_EQ(run(program), 42);
 }
 
 }  // namespace
