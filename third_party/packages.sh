@@ -34,7 +34,8 @@ install_missing() {
     if ! "${apt[@]}" update </dev/null >"$log" 2>&1 ||
         ! "${apt[@]}" install --no-install-recommends "${missing[@]}" </dev/null >>"$log" 2>&1; then
         local reason
-        reason=$(grep -m1 '^E: ' "$log" || tail -n 1 "$log")
+        reason=$(grep '^E: ' "$log" | tail -n 1) || true
+        reason=${reason:-$(tail -n 1 "$log")}
         rm -f "$log"
         stop "$name" "apt-get cannot install ${missing[*]}: ${reason#E: }"
     fi
