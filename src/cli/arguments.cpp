@@ -12,6 +12,8 @@ namespace tarn {
 namespace {
 
 constexpr int picture_side_max_px = 16384;
+// 8K: its targets take some 4.5 GB, and no read-back passes 2^31 bytes.
+constexpr std::int64_t picture_area_max_px = std::int64_t{1} << 25;
 constexpr std::int64_t ticks_max = 1'000'000'000'000;
 
 glm::ivec2 parse_size(const std::string& text) {
@@ -25,6 +27,8 @@ glm::ivec2 parse_size(const std::string& text) {
     }
     if (!ok || std::min(size.x, size.y) < 1 || std::max(size.x, size.y) > picture_side_max_px)
         fail("--size {}: not a picture size; allowed: WIDTHxHEIGHT, each 1 to {}", text, picture_side_max_px);
+    if (std::int64_t{size.x} * size.y > picture_area_max_px)
+        fail("--size {}: too many pixels; allowed: {} in all", text, picture_area_max_px);
     return size;
 }
 
