@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -17,6 +18,8 @@ namespace tarn {
 namespace {
 
 constexpr double census_interval_s = 0.25;
+// Undo moves one box while it holds at most so many voxels for each that changes.
+constexpr std::uint64_t box_per_change_max = 64;
 
 constexpr GLenum byte_layout = GL_RED_INTEGER;
 constexpr GLenum byte_type = GL_UNSIGNED_BYTE;
@@ -65,6 +68,8 @@ struct Simulation::Parts {
     void write_region(const Box& region, const std::vector<std::uint8_t>& before,
                       const std::vector<std::uint8_t>& after);
     std::vector<std::uint8_t> read_region(const Box& region) const;
+    void write_changes(const Box& region, std::span<const CellChange* const> changes);
+    void write_by_brick(std::vector<const CellChange*>& changes);  // reorders them
     void tick_once(WaterTier tier, int film_threshold);
 
     gl::Timers& timers;
@@ -190,30 +195,51 @@ void Simulation::write(const std::vector<CellChange>& changes) {
     if (changes.empty()) return;
     Parts& p = *parts_;
     ++p.version;
-    // Brick by brick, for a stroke may cross the whole world; the order within a brick is kept.
-    std::vector<std::pair<glm::ivec3, const CellChange*>> sorted;
-    sorted.reserve(changes.size());
+    Box box{p.size_vox, glm::ivec3(0)};
     for (const CellChange& change : changes) {
-        CHECK(glm::all(glm::greaterThanEqual(change.cell, glm::ivec3(0))) &&
-              glm::all(glm::lessThan(change.cell, p.size_vox)));
-        sorted.emplace_back(change.cell / BRICK_SIDE, &change);
+        box.min_vox = glm::min(box.min_vox, change.cell);
+        box.max_vox = glm::max(box.max_vox, change.cell + 1);
     }
-    std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) {
-        return std::tie(a.first.z, a.first.y, a.first.x) < std::tie(b.first.z, b.first.y, b.first.x);
-    });
-    for (std::size_t i = 0; i < sorted.size();) {
-        const glm::ivec3 brick = sorted[i].first;
-        const Box region{brick * BRICK_SIDE, glm::min((brick + 1) * BRICK_SIDE, p.size_vox)};
-        const std::vector<std::uint8_t> before = p.read_region(region);
-        std::vector<std::uint8_t> after = before;
-        for (; i < sorted.size() && sorted[i].first == brick; ++i) {
-            const glm::ivec3 at = sorted[i].second->cell - region.min_vox;
-            after[at.x + region.size().x * (at.y + region.size().y * at.z)] = sorted[i].second->after;
-        }
-        for (std::size_t k = 0; k < after.size(); ++k) count_change(before[k], after[k], p.edit_totals);
-        if (after != before) p.write_region(region, before, after);
+    CHECK(glm::all(glm::greaterThanEqual(box.min_vox, glm::ivec3(0))) &&
+          glm::all(glm::lessThanEqual(box.max_vox, p.size_vox)));
+    std::vector<const CellChange*> in_order;
+    in_order.reserve(changes.size());
+    for (const CellChange& change : changes) in_order.push_back(&change);
+    if (box.volume() <= box_per_change_max * changes.size()) {
+        p.write_changes(box, in_order);
+    } else {
+        p.write_by_brick(in_order);
     }
     p.update_bricks();
+}
+
+void Simulation::Parts::write_changes(const Box& region, std::span<const CellChange* const> changes) {
+    const std::vector<std::uint8_t> before = read_region(region);
+    std::vector<std::uint8_t> after = before;
+    const glm::ivec3 size = region.size();
+    for (const CellChange* change : changes) {
+        const glm::ivec3 at = change->cell - region.min_vox;
+        after[at.x + std::size_t{1} * size.x * (at.y + std::size_t{1} * size.y * at.z)] = change->after;
+    }
+    for (std::size_t k = 0; k < after.size(); ++k) count_change(before[k], after[k], edit_totals);
+    if (after != before) write_region(region, before, after);
+}
+
+// A stroke may cross the whole world. The order within a brick is kept.
+void Simulation::Parts::write_by_brick(std::vector<const CellChange*>& changes) {
+    const auto brick_of = [](const CellChange* change) { return change->cell / BRICK_SIDE; };
+    std::stable_sort(changes.begin(), changes.end(), [&](const CellChange* a, const CellChange* b) {
+        const glm::ivec3 left = brick_of(a);
+        const glm::ivec3 right = brick_of(b);
+        return std::tie(left.z, left.y, left.x) < std::tie(right.z, right.y, right.x);
+    });
+    for (auto first = changes.begin(); first != changes.end();) {
+        const glm::ivec3 brick = brick_of(*first);
+        const auto last = std::find_if(first, changes.end(), [&](auto* c) { return brick_of(c) != brick; });
+        const Box region{brick * BRICK_SIDE, glm::min((brick + 1) * BRICK_SIDE, size_vox)};
+        write_changes(region, {first, last});
+        first = last;
+    }
 }
 
 void Simulation::write_cells(const Cells& cells) {

@@ -178,6 +178,29 @@ TEST_F(BricksTest, edits_undo_and_loading_keep_them_right) {
     look();
 }
 
+// Two small edits far apart are one stroke: undo goes brick by brick, not through all that lies between.
+TEST_F(BricksTest, a_stroke_across_the_world_is_undone) {
+    const Scene scene = sparse_scene({61, 37, 45});
+    gl::Timers timers;
+    Simulation simulation(scene, timers);
+    EditHistory history;
+    history.begin_stroke();
+    for (const glm::ivec3 center : {glm::ivec3(1, 1, 1), glm::ivec3(60, 36, 44), glm::ivec3(1, 1, 2)})
+        simulation.apply(
+            {.center_vox = center, .radius_vox = 1, .material = MATERIAL_WALL, .overwrite = true}, history);
+    const Cells edited = simulation.read_cells();
+    const auto undo = history.undo();
+    ASSERT_TRUE(undo.has_value());
+    ASSERT_LT(undo->size(), 100u);
+    simulation.write(*undo);
+    expect_right_stamps(simulation, edited, scene.cells);
+    expect_right_distances(simulation, scene.cells);
+    EXPECT_TRUE(same_cells(simulation.read_cells(), scene.cells));
+    EXPECT_EQ(simulation.edit_totals().placed, simulation.edit_totals().removed);
+    simulation.write(*history.redo());
+    EXPECT_TRUE(same_cells(simulation.read_cells(), edited));
+}
+
 TEST_F(BricksTest, single_cells_are_read_back) {
     Scene scene;
     scene.cells = make_soup({7, 13, 5}, Soup::AllBytes, 3);
