@@ -2,6 +2,7 @@
 #include "app/app.h"
 
 #include <imgui.h>
+#include <unistd.h>
 
 #include <filesystem>
 
@@ -255,7 +256,8 @@ TEST_F(AppTest, HeadlessRunsTicksPerFrameAndNoClock) {
 
 TEST_F(AppTest, PicturesNeverOverwriteOneAnother) {
     const std::filesystem::path before = std::filesystem::current_path();
-    const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "tarn_app_test";
+    const std::filesystem::path folder =
+        std::filesystem::path(testing::TempDir()) / fmt::format("tarn_app_test_{}", getpid());
     std::filesystem::remove_all(folder);
     std::filesystem::create_directories(folder);
     std::filesystem::current_path(folder);

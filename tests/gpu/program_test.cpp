@@ -1,6 +1,8 @@
 // gl::Program refuses what would otherwise fail silently; the frame block has one layout in both languages.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <chrono>
 #include <cstddef>
 #include <filesystem>
 
@@ -123,7 +125,8 @@ class ReloadTest : public ProgramTest {
         return result;
     }
 
-    std::filesystem::path path_ = std::filesystem::path(testing::TempDir()) / "tarn_reload.comp";
+    std::filesystem::path path_ =
+        std::filesystem::path(testing::TempDir()) / fmt::format("tarn_reload_{}.comp", getpid());
     std::filesystem::file_time_type written_ = std::filesystem::file_time_type::clock::now();
 };
 
