@@ -28,7 +28,8 @@ glm::ivec2 parse_size(const std::string& text) {
     if (!ok || std::min(size.x, size.y) < 1 || std::max(size.x, size.y) > picture_side_max_px)
         fail("--size {}: not a picture size; allowed: WIDTHxHEIGHT, each 1 to {}", text, picture_side_max_px);
     if (std::int64_t{size.x} * size.y > picture_area_max_px)
-        fail("--size {}: too many pixels; allowed: {} in all", text, picture_area_max_px);
+        fail("--size {}: too many pixels; allowed: WIDTHxHEIGHT, each 1 to {}, of {} in all", text,
+             picture_side_max_px, picture_area_max_px);
     return size;
 }
 
