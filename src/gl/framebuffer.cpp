@@ -35,8 +35,11 @@ Framebuffer::Framebuffer(const char* label, std::initializer_list<const Texture*
     }
     glNamedFramebufferDrawBuffers(name_, static_cast<GLsizei>(count), buffers.data());
     glObjectLabel(GL_FRAMEBUFFER, name_, -1, label);
-    CHECK_MSG(glCheckNamedFramebufferStatus(name_, GL_DRAW_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE, "{}",
-              label);
+    const GLenum status = glCheckNamedFramebufferStatus(name_, GL_DRAW_FRAMEBUFFER);
+    if (status == GL_FRAMEBUFFER_COMPLETE) return;
+    glDeleteFramebuffers(1, &name_);
+    fail("framebuffer {} of {}x{}: the driver cannot draw into it (status {:#x}); out of GPU memory?", label,
+         size_.x, size_.y, status);
 }
 
 Framebuffer::~Framebuffer() {

@@ -13,6 +13,7 @@ class Framebuffer {
   public:
     Framebuffer() = default;
     // Attachment i is the i-th texture; all have one size. Textures must outlive the framebuffer.
+    // Throws Error where the driver cannot draw into them.
     Framebuffer(const char* label, std::initializer_list<const Texture*> attachments);
     ~Framebuffer();
     Framebuffer(Framebuffer&& other) noexcept;

@@ -15,8 +15,10 @@ Texture::Texture(const TextureDesc& desc) : format_(desc.format), size_(desc.siz
         glTextureStorage3D(name_, 1, format_, size_.x, size_.y, size_.z);
     else
         glTextureStorage2D(name_, 1, format_, size_.x, size_.y);
-    if (glGetError() == GL_OUT_OF_MEMORY)
+    if (glGetError() == GL_OUT_OF_MEMORY) {
+        glDeleteTextures(1, &name_);
         fail("texture {} of {}x{}x{}: out of GPU memory", desc.label, size_.x, size_.y, size_.z);
+    }
     const GLint filter = desc.linear ? GL_LINEAR : GL_NEAREST;
     glTextureParameteri(name_, GL_TEXTURE_MIN_FILTER, filter);
     glTextureParameteri(name_, GL_TEXTURE_MAG_FILTER, filter);

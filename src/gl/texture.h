@@ -20,6 +20,7 @@ struct TextureDesc {
 class Texture {
   public:
     Texture() = default;
+    // Throws Error where GPU memory does not suffice.
     explicit Texture(const TextureDesc& desc);
     ~Texture();
     Texture(Texture&& other) noexcept;

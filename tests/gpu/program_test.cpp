@@ -1,4 +1,5 @@
-// gl::Program refuses what would otherwise fail silently; the frame block has one layout in both languages.
+// gl::Program and gl::Framebuffer refuse what would otherwise fail silently; the frame block has one layout
+// in both languages.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -9,6 +10,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "gl/buffer.h"
+#include "gl/framebuffer.h"
 #include "gl/program.h"
 #include "gpu/gl_test.h"
 #include "shared/frame.h"
@@ -96,6 +98,13 @@ TEST_F(ProgramTest, missing_file_is_an_error_that_names_it) {
     const std::string error =
         error_of([] { const gl::Program program({.label = "none", .compute = "pass/none.comp"}); });
     EXPECT_NE(error.find("glsl/pass/none.comp"), std::string::npos) << error;
+}
+
+TEST_F(ProgramTest, a_target_that_cannot_be_drawn_into_is_an_error) {
+    // Shared exponents are for reading only.
+    const gl::Texture texture({.label = "sky", .format = GL_RGB9_E5, .size = {8, 4, 0}});
+    const std::string error = error_of([&] { const gl::Framebuffer target("sky target", {&texture}); });
+    EXPECT_NE(error.find("sky target of 8x4"), std::string::npos) << error;
 }
 
 // A kernel that is edited while its program runs: it stores `factor` times 3, or what the edit makes of it.
