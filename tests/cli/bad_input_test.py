@@ -35,6 +35,8 @@ class BadArguments(Case):
             self.refuse([*RENDER, "--out", "a.png", f"--frames={frames}"], "--frames")
         for spp in ("0", "-5"):
             self.refuse([*RENDER, "--out", "a.png", "--exact", f"--spp={spp}"], "--spp")
+        self.refuse([*RENDER, "--out", "a.png", "--exact", "--spp", "3", "--set", "samples_per_pixel=2"], "--spp 3",
+                    "samples_per_pixel=2", "multiple")
         for camera in ("1,2,3", "1,2,3,4,5,6,7", "1,2,nan,4,5", "1,2,3,4,91", "1,2,3,4,5,180", "1,2,3,4,", "a,b,c,d,e",
                        "1,2,3,4,5,0"):
             self.refuse([*RENDER, "--out", "a.png", f"--camera={camera}"], "--camera", "allowed")
