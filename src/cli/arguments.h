@@ -23,6 +23,10 @@ struct Arguments {
     bool exact = false;
     int spp = 64;
     std::optional<std::uint32_t> seed;
+    // Of `water`: comma-separated names; empty means all of them.
+    std::string tiers, scenarios;
+    int seeds = 1;
+    bool reference = false, awake = false;
 };
 
 // Nothing where help was asked for and printed. Throws Error naming the argument, the reason and what is

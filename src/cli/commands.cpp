@@ -10,6 +10,7 @@
 #include "cli/arguments.h"
 #include "cli/doctor.h"
 #include "cli/progress.h"
+#include "cli/water_command.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "platform/platform.h"
@@ -149,6 +150,7 @@ int run_command_line(int argc, char** argv) {
     if (arguments->command == "play") return run_play(*arguments);
     if (arguments->command == "render") return run_render(*arguments);
     if (arguments->command == "simulate") return run_simulate(*arguments);
+    if (arguments->command == "water") return run_water_command(*arguments);
     if (arguments->command == "scenes") return run_scenes();
     if (arguments->command == "settings") return run_settings();
     return run_doctor();

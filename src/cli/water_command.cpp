@@ -1,0 +1,93 @@
+#include "cli/water_command.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <optional>
+
+#include "cli/progress.h"
+#include "core/error.h"
+#include "core/files.h"
+#include "gl/context.h"
+#include "measure/water_table.h"
+#include "platform/platform.h"
+
+namespace tarn {
+
+namespace {
+
+// The parts of a list separated by commas; `all` where it is empty.
+std::vector<std::string> names_of(const std::string& option, const std::string& list,
+                                  const std::vector<std::string>& all) {
+    if (list.empty()) return all;
+    std::vector<std::string> names;
+    for (std::size_t begin = 0; begin <= list.size();) {
+        const std::size_t comma = std::min(list.find(',', begin), list.size());
+        const std::string name = list.substr(begin, comma - begin);
+        if (std::find(all.begin(), all.end(), name) == all.end())
+            fail("{} {}: no such name; allowed: {}", option, name, fmt::join(all, ", "));
+        if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+        begin = comma + 1;
+    }
+    return names;
+}
+
+void make_folder(const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) fail("--out {}: cannot make the folder: {}", folder.string(), error.message());
+    for (const char* name : {"water.csv", "water.svg"}) check_writable(folder / name);
+}
+
+std::vector<WaterRun> run_all(const Arguments& arguments, const std::vector<std::string>& tiers,
+                              const std::vector<std::string>& scenarios, const Settings& settings) {
+    const MakeStepper make = arguments.reference ? make_reference_stepper : make_gpu_stepper;
+    std::vector<WaterRun> runs;
+    for (const std::string& tier : tiers) {
+        for (const std::string& name : scenarios) {
+            for (int seed = 1; seed <= arguments.seeds; ++seed) {
+                const WaterScenario& scenario = *find_water_scenario(name);
+                WaterRunOptions options{.stepper = {.settings = settings, .awake = arguments.awake},
+                                        .ticks_limit = static_cast<int>(arguments.ticks)};
+                set_setting(options.stepper.settings, "water_tier", tier);
+                Progress progress(fmt::format("water: {} {} seed {}", tier, name, seed),
+                                  static_cast<std::uint64_t>(scenario.ticks_max));
+                options.progress = [&](int done) { progress.show(static_cast<std::uint64_t>(done)); };
+                runs.push_back(run_water(scenario, static_cast<std::uint32_t>(seed), make, options));
+            }
+        }
+    }
+    return runs;
+}
+
+}  // namespace
+
+int run_water_command(const Arguments& arguments) {
+    std::vector<std::string> all_scenarios;
+    for (const WaterScenario& scenario : water_scenarios()) all_scenarios.emplace_back(scenario.name);
+    const auto tier_names = choice_names<WaterTier>();
+    const auto tiers = names_of("--tier", arguments.tiers, {tier_names.begin(), tier_names.end()});
+    const auto scenarios = names_of("--scenario", arguments.scenarios, all_scenarios);
+    Settings settings;
+    for (const std::string& assignment : arguments.set) set_assignment(settings, assignment);
+    if (!arguments.out.empty()) make_folder(arguments.out);
+
+    const std::unique_ptr<Platform> platform = arguments.reference ? nullptr : make_headless({1, 1}, 0);
+    if (arguments.reference)
+        fmt::print("stepped by the serial CPU reference\n\n");
+    else
+        fmt::print("stepped by {}\n\n", gl::driver_info().renderer);
+    std::fflush(stdout);
+
+    const std::vector<WaterRun> runs = run_all(arguments, tiers, scenarios, settings);
+    const std::vector<WaterRow> rows = water_rows(runs);
+    fmt::print("{}", water_text(rows));
+    if (!arguments.out.empty()) {
+        const std::filesystem::path folder = arguments.out;
+        write_file(folder / "water.csv", water_csv(rows));
+        write_file(folder / "water.svg", water_plot(runs));
+    }
+    return any_bad(rows) ? 1 : 0;
+}
+
+}  // namespace tarn
