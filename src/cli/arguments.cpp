@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "measure/water_scenarios.h"
 
 namespace tarn {
 
@@ -54,20 +55,24 @@ void apply_camera(const std::string& text, Settings& settings) {
 }
 
 void water_options(CLI::App* water, Arguments& arguments) {
-    water->add_option("--tier", arguments.tiers, "Tiers of the water, separated by commas (all)");
-    water->add_option("--scenario", arguments.scenarios,
-                      "Scenarios, separated by commas (all); a wrong name lists them");
+    water->add_option("--tier", arguments.tiers,
+                      fmt::format("Tiers of the water, separated by commas (all): {}",
+                                  fmt::join(choice_names<WaterTier>(), ", ")));
+    water->add_option("--scenario", arguments.scenarios, "Scenarios below, separated by commas (all)");
     water->add_option("--seeds", arguments.seeds, "Seeds 1 to N; the table has the typical and the worst (1)")
         ->check(CLI::Range(1, 1000));
-    water
-        ->add_option("--ticks", arguments.ticks, "At most so many ticks a run, in place of a scenario's own")
+    water->add_option("--ticks", arguments.ticks, "At most so many ticks a run, in place of a scenario's own")
         ->check(CLI::Range(1, 1000000));
     water->add_option("--set", arguments.set, "key=value, repeatable; see `tarn settings`")
         ->allow_extra_args(false);
     water->add_option("--out", arguments.out, "Folder for water.csv and water.svg; made where it is missing");
     water->add_flag("--reference", arguments.reference, "Step the serial CPU reference in place of the GPU");
     water->add_flag("--awake", arguments.awake, "Step every brick always, those at rest too");
-    water->footer("Exit code 1: water or sand was lost or made. A missed target is in the table alone.");
+    std::string footer = "Scenarios:\n";
+    for (const WaterScenario& scenario : water_scenarios())
+        footer += fmt::format("  {:<9} {}\n", scenario.name, scenario.what);
+    footer += "Exit code 1: water or sand was lost or made. A missed target is in the table alone.";
+    water->footer(footer);
 }
 
 // CLI11 spreads its help over lines; an error is one.
@@ -147,7 +152,8 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
 
     const auto named = [&](const CLI::App* command) { return command->check_name(argv[1]); };
     if (argc > 1 && *argv[1] != '-' && app.get_subcommands(named).empty())
-        fail("{}: no such command; allowed: play, render, simulate, water, scenes, settings, doctor", argv[1]);
+        fail("{}: no such command; allowed: play, render, simulate, water, scenes, settings, doctor",
+             argv[1]);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& help) {

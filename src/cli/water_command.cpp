@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <filesystem>
-#include <optional>
 
 #include "cli/progress.h"
 #include "core/error.h"

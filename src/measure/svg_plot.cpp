@@ -66,7 +66,9 @@ Scale scale_of(const PlotAxis& axis, std::span<const PlotSeries> series, int com
             if (!axis.log) low = std::min(low, point[component]);
             high = std::max(high, point[component]);
         }
-    return {low, high, from_px, to_px, axis.log};
+    // Lines keep off the frame of a logarithmic panel.
+    constexpr double room = 1.3;
+    return {low, axis.log ? room * high : high, from_px, to_px, axis.log};
 }
 
 // At most the first, lowest, highest and last point of each column of pixels: a plot of thousands of ticks
@@ -152,7 +154,7 @@ std::vector<double> axis_ticks(double low, double high, bool log) {
     for (const double factor : {5.0, 2.0, 1.0})
         if (factor * decade >= rough) step = factor * decade;
     for (double k = std::ceil(low / step - slack); k * step <= high + slack * (high - low); ++k)
-        ticks.push_back(k * step);
+        ticks.push_back(k * step + 0.0);  // no -0
     return ticks;
 }
 

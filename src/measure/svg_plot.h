@@ -10,7 +10,8 @@ namespace tarn {
 // Series of one name have one colour in all panels.
 struct PlotSeries {
     std::string name;
-    std::vector<glm::dvec2> points = {};  // in order of x where `line`; those that are not finite are left out
+    std::vector<glm::dvec2> points =
+        {};  // in order of x where `line`; those that are not finite are left out
     bool line = true;
     bool dots = false;
 };
