@@ -140,6 +140,8 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
         ->required()
         ->check(CLI::Range(std::int64_t{0}, ticks_max));
     simulate->add_option("--cells", arguments.cells, "Write material ids as .npy: uint8, shape (z, y, x)");
+    simulate->add_option("--amounts", arguments.amounts,
+                         "Write quanta of water (sixteenths of a voxel, 0 to 16) as .npy of the same shape");
     simulate->add_option("--stats", arguments.stats, "Write counts, times and settings as JSON");
 
     CLI::App* water = app.add_subcommand(

@@ -15,7 +15,7 @@ struct Arguments {
     std::string command;
     std::string scene = "lake";
     glm::ivec2 size_px{0};  // 0: chosen by the command
-    std::string out, stats, cells, camera;
+    std::string out, stats, cells, amounts, camera;
     std::optional<std::string> quality;
     std::vector<std::string> set;
     std::uint64_t ticks = 0;

@@ -27,7 +27,7 @@ glm::ivec2 picture_size(const Arguments& arguments) {
 }
 
 void check_outputs(const Arguments& arguments) {
-    for (const std::string* path : {&arguments.out, &arguments.stats, &arguments.cells}) {
+    for (const std::string* path : {&arguments.out, &arguments.stats, &arguments.cells, &arguments.amounts}) {
         if (!path->empty()) check_writable(*path);
     }
 }
@@ -90,19 +90,27 @@ int run_render(const Arguments& arguments) {
 }
 
 int run_simulate(const Arguments& arguments) {
-    if (!arguments.cells.empty() && std::filesystem::path(arguments.cells).extension() != ".npy")
-        fail("--cells {}: unknown kind of file; allowed: a name ending in .npy", arguments.cells);
+    for (const auto& [option, path] :
+         {std::pair("--cells", &arguments.cells), std::pair("--amounts", &arguments.amounts)}) {
+        if (!path->empty() && std::filesystem::path(*path).extension() != ".npy")
+            fail("{} {}: unknown kind of file; allowed: a name ending in .npy", option, *path);
+    }
     check_outputs(arguments);
     const Scene scene = scene_of(arguments);
     const auto platform = make_headless({1, 1}, 0);
     gl::Timers timers;
     Simulation simulation(scene, timers);
     run_ticks(simulation, scene.settings, arguments.ticks, timers);
-    if (!arguments.cells.empty()) write_npy(arguments.cells, simulation.read_cells());
+    if (!arguments.cells.empty() || !arguments.amounts.empty()) {
+        const Cells cells = simulation.read_cells();
+        if (!arguments.cells.empty()) write_npy(arguments.cells, cells);
+        if (!arguments.amounts.empty()) write_amounts_npy(arguments.amounts, cells);
+    }
     const std::string stats =
         stats_json({.scene = scene, .simulation = simulation, .settings = scene.settings, .timers = timers});
     if (!arguments.stats.empty()) write_file(arguments.stats, stats);
-    if (arguments.stats.empty() && arguments.cells.empty()) fmt::print("{}", stats);
+    if (arguments.stats.empty() && arguments.cells.empty() && arguments.amounts.empty())
+        fmt::print("{}", stats);
     return 0;
 }
 

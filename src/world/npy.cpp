@@ -27,9 +27,8 @@ std::string header_of(glm::ivec3 size) {
     return header + '\n';
 }
 
-}  // namespace
-
-void write_npy(const std::filesystem::path& path, const Cells& cells) {
+// Writes of(byte) for each byte.
+void write_array(const std::filesystem::path& path, const Cells& cells, std::uint32_t (*of)(std::uint32_t)) {
     write_beside_and_rename(path, [&](const std::filesystem::path& temporary) {
         std::ofstream file(temporary, std::ios::binary);
         const std::string header = header_of(cells.size_vox());
@@ -43,12 +42,22 @@ void write_npy(const std::filesystem::path& path, const Cells& cells) {
         for (std::size_t begin = 0; begin < cells.count(); begin += piece_bytes) {
             piece.resize(std::min(piece_bytes, cells.count() - begin));
             for (std::size_t i = 0; i < piece.size(); ++i)
-                piece[i] = static_cast<char>(material_of(cells.bytes()[begin + i]));
+                piece[i] = static_cast<char>(of(cells.bytes()[begin + i]));
             file.write(piece.data(), static_cast<std::streamsize>(piece.size()));
         }
         file.flush();
         if (!file) fail("{}: cannot write: {}", path.string(), std::strerror(errno));
     });
+}
+
+}  // namespace
+
+void write_npy(const std::filesystem::path& path, const Cells& cells) {
+    write_array(path, cells, material_of);
+}
+
+void write_amounts_npy(const std::filesystem::path& path, const Cells& cells) {
+    write_array(path, cells, quanta_of);
 }
 
 Cells read_npy(const std::filesystem::path& path) {

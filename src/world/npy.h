@@ -1,5 +1,5 @@
-// Cells as NumPy files: `.npy` format 1.0, uint8, C order, shape (z, y, x), material ids without per-cell
-// state.
+// Cells as NumPy files: `.npy` format 1.0, uint8, C order, shape (z, y, x): material ids, and quanta of
+// water.
 #pragma once
 #include <filesystem>
 
@@ -11,7 +11,10 @@ namespace tarn {
 // written, and leaves no part of it.
 void write_npy(const std::filesystem::path& path, const Cells& cells);
 
-// Reads such a file back. Throws Error naming the file and what is wrong with it.
+// The quanta of water in each cell, 0..16, in the same shape; errors as above.
+void write_amounts_npy(const std::filesystem::path& path, const Cells& cells);
+
+// Reads a file of material ids back. Throws Error naming the file and what is wrong with it.
 Cells read_npy(const std::filesystem::path& path);
 
 }  // namespace tarn

@@ -61,6 +61,23 @@ class Cells(Case):
                     else 0 for z in range(5) for y in range(7) for x in range(9)]
         self.assertEqual(list(cells), expected)
 
+    def test_amounts(self):
+        self.succeed("simulate", "--scene", "s.json", "--ticks", "0", "--cells", "a.npy", "--amounts", "b.npy")
+        shape, amounts = read_npy(self.read("b.npy"))
+        self.assertEqual(shape, (5, 7, 9))
+        self.assertEqual(list(amounts), [16 * (id == 64) for id in read_npy(self.read("a.npy"))[1]])
+        # Spread over the floor there are parts of voxels: one id whatever the amount.
+        self.succeed("simulate", "--scene", "s.json", "--ticks", "60", "--cells", "a.npy", "--amounts", "b.npy",
+                     "--set", "film_threshold=1")
+        ids, amounts = (read_npy(self.read(name))[1] for name in ("a.npy", "b.npy"))
+        self.assertEqual([id == 64 for id in ids], [quanta > 0 for quanta in amounts])
+        self.assertEqual(sum(amounts), 8 * 16)
+        self.assertLess(0, sum(0 < quanta < 16 for quanta in amounts))
+        self.assertLessEqual(max(amounts), 16)
+        self.assertEqual(self.succeed("simulate", "--scene", "s.json", "--ticks", "0", "--amounts", "b.npy"), "")
+        self.refuse(["simulate", "--scene", "s.json", "--ticks", "0", "--amounts", "b.txt"], "--amounts", ".npy")
+        self.refuse(["simulate", "--scene", "s.json", "--ticks", "0", "--amounts", "missing/b.npy"], "missing")
+
     def test_stats(self):
         self.succeed("simulate", "--scene", "s.json", "--ticks", "60", "--cells", "a.npy", "--stats", "a.json", "--set",
                      "film_threshold=1", "--set", "water_tier=block", "--set", "max_bounces=3")

@@ -62,6 +62,15 @@ TEST_F(Npy, ReadsBackWhatItWroteWithoutAmounts) {
     EXPECT_EQ(read_npy(folder_ / "a.npy"), expected);
 }
 
+TEST_F(Npy, AmountsAreQuantaOfEveryByte) {
+    Cells cells({16, 4, 4});
+    for (std::size_t i = 0; i < cells.count(); ++i) cells.bytes()[i] = static_cast<std::uint8_t>(i);
+    write_amounts_npy(folder_ / "a.npy", cells);
+    const Cells amounts = read_npy(folder_ / "a.npy");
+    ASSERT_EQ(amounts.size_vox(), cells.size_vox());
+    for (int i = 0; i < 256; ++i) EXPECT_EQ(amounts.bytes()[i], i >= 64 && i <= 79 ? i - 63 : 0) << i;
+}
+
 TEST_F(Npy, RefusesWhatIsNotSuchAFile) {
     write_npy(folder_ / "a.npy", Cells({2, 3, 4}));
     const std::string good = read_text_file(folder_ / "a.npy");
