@@ -1,35 +1,24 @@
 // One tick of the `block` tier: an invocation owns a block of 2x2x2 cells, reads them, moves water and sand among
-// them and writes those that changed. Cells outside the world are wall.
-#include "shared/materials.h"
+// them and writes those that changed. Cells outside the world are wall. A workgroup runs a tile of BLOCK_TILE cells a side.
 #include "shared/hash.h"
-#include "shared/bindings.h"
+#include "lib/activity.glsl"
+#include "lib/water.glsl"
 
-layout(local_size_x = 8, local_size_y = 8, local_size_z = 4) in;
+layout(local_size_x = BLOCK_TILE / 2, local_size_y = BLOCK_TILE / 2, local_size_z = BLOCK_TILE / 2) in;
 
-layout(r8ui, binding = 0) uniform uimage3D cells;
-layout(r32ui, binding = 1) writeonly uniform uimage3D brick_changed;
+layout(r8ui, binding = IMAGE_CELLS) uniform uimage3D cells;
+
+layout(std430, binding = STORAGE_BLOCKS) readonly buffer Tiles {
+    WorkHeader tiles;
+    uint tile_ids[];
+};
 
 uniform ivec3 size_vox;
 uniform ivec3 offset_vox;      // 0 or 1 along each axis
+uniform ivec3 count_tiles;
 uniform uint seed;
 uniform uint tick_key;         // hash2(seed, tick)
 uniform int film_threshold;    // quanta
-uniform uint version;          // stamped on bricks whose cells change
-
-// What a cell holds, ordered so that comparisons say it all: 0..FULL quanta of water (0: air), SAND, CLOSED.
-const int FULL = int(QUANTA_PER_VOXEL);
-const int SAND = 32;
-const int CLOSED = 64;
-
-int content_of(uint cell) {
-    int water = int(cell) - int(MATERIAL_WATER) + 1;
-    if (cell == MATERIAL_AIR) return 0;
-    if (cell == MATERIAL_SAND) return SAND;
-    return water >= 1 && water <= FULL ? water : CLOSED;
-}
-
-bool is_open(int content) { return content <= FULL; }
-bool supports(int content) { return content >= FULL; }
 
 // A column: water falls as far as there is room, sand sinks through air and water.
 void fall(inout int upper, inout int lower) {
@@ -88,7 +77,11 @@ void level_layer(inout int c[4], bvec4 supported, bool as_one) {
 }
 
 void main() {
-    ivec3 block = 2 * ivec3(gl_GlobalInvocationID) - offset_vox;
+    if (work_group() >= tiles.count) return;
+    uint id = tile_ids[work_group()];
+    uvec3 count = uvec3(count_tiles);
+    ivec3 tile = ivec3(id % count.x, id / count.x % count.y, id / (count.x * count.y));
+    ivec3 block = BLOCK_TILE * tile + 2 * ivec3(gl_LocalInvocationID) - offset_vox;
     if (any(greaterThanEqual(block, size_vox))) return;
 
     // The rule runs in a frame mirrored and transposed by hash, so that no direction is favoured: a and b are the
@@ -154,7 +147,7 @@ void main() {
     for (int k = 0; k < 8; ++k) {
         if (c[k] == before[k]) continue;
         ivec3 cell = corner + (k & 1) * a + (k >> 1 & 1) * b + ivec3(0, k >> 2, 0);
-        imageStore(cells, cell, uvec4(c[k] == SAND ? MATERIAL_SAND : water_cell(uint(c[k]))));
-        imageStore(brick_changed, cell / BRICK_SIDE, uvec4(version));
+        imageStore(cells, cell, uvec4(cell_of(c[k])));
+        mark_changed(cell);
     }
 }

@@ -1,18 +1,16 @@
 // A spring or a drain over its region: an invocation a cell. What is made or taken is counted in 64 bits.
 #include "shared/materials.h"
-#include "shared/bindings.h"
+#include "lib/activity.glsl"
 
 layout(local_size_x = 8, local_size_y = 4, local_size_z = 8) in;
 
-layout(r8ui, binding = 0) uniform uimage3D cells;
-layout(r32ui, binding = 1) writeonly uniform uimage3D brick_changed;
+layout(r8ui, binding = IMAGE_CELLS) uniform uimage3D cells;
 
 // Pairs (low, high): water sprung, water drained (quanta), sand sprung, sand drained (voxels).
 layout(std430, binding = 0) buffer FlowCounters { uint counters[8]; };
 
 uniform ivec3 region_min_vox;  // the region lies inside the world
 uniform ivec3 region_size_vox;
-uniform uint version;
 
 #ifdef SPRING
 uniform bool makes_sand;
@@ -52,5 +50,5 @@ void main() {
 #endif
     if (after == before) return;
     imageStore(cells, cell, uvec4(after));
-    imageStore(brick_changed, cell / BRICK_SIDE, uvec4(version));
+    mark_changed(cell);
 }

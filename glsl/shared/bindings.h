@@ -12,6 +12,20 @@
 #define BINDING_BRICK_CHANGED 3
 #define BINDING_FIRST_INPUT 4
 
+// Images of the passes that change cells
+#define IMAGE_CELLS 0
+#define IMAGE_BRICK_CHANGED 1
+#define IMAGE_ACTING_HEAD 2
+#define IMAGE_BUILDING_HEAD 3
+// Storage buffers of theirs; 0 is a pass's own
+#define STORAGE_CHANGED_TICK 1
+#define STORAGE_ACTIVE_NEXT 2
+#define STORAGE_ACTIVE 3
+#define STORAGE_BLOCKS 4
+#define STORAGE_BLOCKS_WIDE 5
+#define STORAGE_BLOCK_MARKS 6
+#define STORAGE_HEAD_CLOCK 7
+
 // Side of a brick in voxels, and its logarithm. 4: a primary ray over the lake takes 17 steps, with 8 it took 28
 #define BRICK_SIDE 4
 #define BRICK_SHIFT 2

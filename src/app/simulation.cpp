@@ -6,11 +6,10 @@
 #include <tuple>
 #include <utility>
 
+#include "app/water.h"
 #include "core/error.h"
-#include "passes/block_step.h"
 #include "passes/bricks.h"
 #include "passes/census.h"
-#include "passes/flow.h"
 #include "shared/bindings.h"
 
 namespace tarn {
@@ -47,17 +46,15 @@ struct Simulation::Parts {
     Parts(const Scene& scene, gl::Timers& frame_timers)
         : timers(frame_timers),
           size_vox(size_within_limits(scene.cells.size_vox())),
-          seed(scene.seed),
-          springs(scene.springs),
-          drains(scene.drains),
           cells({.label = "cells", .format = GL_R8UI, .size = size_vox}),
           brick_distance({.label = "brick distance", .format = GL_RG8UI, .size = bricks_of(size_vox)}),
           brick_changed({.label = "brick changed", .format = GL_R32UI, .size = bricks_of(size_vox)}),
+          water(scene),
           bricks(bricks_of(size_vox)),
           census(take_census(scene.cells)) {}
 
     std::uint32_t stamp() const { return static_cast<std::uint32_t>(version); }
-    bool flows() const { return !springs.empty() || !drains.empty(); }
+    std::uint32_t tick32() const { return static_cast<std::uint32_t>(tick); }
     void update_bricks() {
         bricks.record({.cells = cells, .brick_changed = brick_changed, .version = stamp()},
                       {.brick_distance = brick_distance}, timers);
@@ -70,21 +67,17 @@ struct Simulation::Parts {
     std::vector<std::uint8_t> read_region(const Box& region) const;
     void write_changes(const Box& region, std::span<const CellChange* const> changes);
     void write_by_brick(std::vector<const CellChange*>& changes);  // reorders them
-    void tick_once(WaterTier tier, int film_threshold);
 
     gl::Timers& timers;
     glm::ivec3 size_vox;
-    std::uint32_t seed;
-    std::vector<Spring> springs;
-    std::vector<Drain> drains;
 
     gl::Texture cells, brick_distance, brick_changed;
-    BlockStepPass block_step;
-    FlowPass flow;
+    Water water;
     BricksPass bricks;
     CensusPass census_pass;
 
     std::uint64_t tick = 0;
+    bool always_awake = false;
     std::uint64_t version = 0;
     EditTotals edit_totals;
     Census census;
@@ -97,6 +90,7 @@ void Simulation::Parts::load(const Cells& from) {
     cells.upload(std::span<const std::uint8_t>(from.bytes()), byte_layout, byte_type);
     const std::uint32_t all = stamp();
     glClearTexImage(brick_changed.name(), 0, GL_RED_INTEGER, GL_UNSIGNED_INT, &all);
+    water.load(from, tick32());
     update_bricks();
 }
 
@@ -112,15 +106,23 @@ void Simulation::Parts::stamp_bricks(const Box& bounds, const std::vector<std::u
     const glm::ivec3 size = (bounds.max_vox - 1) / BRICK_SIDE - first + 1;
     std::vector<std::uint32_t> stamps(std::size_t{1} * size.x * size.y * size.z);
     brick_changed.download(first, size, std::span<std::uint32_t>(stamps), GL_RED_INTEGER, GL_UNSIGNED_INT);
+    std::vector<std::uint32_t> touched;
     std::size_t i = 0;
     for (int z = bounds.min_vox.z; z < bounds.max_vox.z; ++z)
         for (int y = bounds.min_vox.y; y < bounds.max_vox.y; ++y)
             for (int x = bounds.min_vox.x; x < bounds.max_vox.x; ++x, ++i) {
                 if (before[i] == after[i]) continue;
                 const glm::ivec3 brick = glm::ivec3(x, y, z) / BRICK_SIDE - first;
-                stamps[brick.x + std::size_t{1} * size.x * (brick.y + std::size_t{1} * size.y * brick.z)] =
-                    stamp();
+                std::uint32_t& at =
+                    stamps[brick.x + std::size_t{1} * size.x * (brick.y + std::size_t{1} * size.y * brick.z)];
+                if (at == stamp()) continue;
+                at = stamp();
+                const glm::ivec3 all = brick_changed.size();
+                const glm::ivec3 in_world = brick + first;
+                touched.push_back(
+                    static_cast<std::uint32_t>(in_world.x + all.x * (in_world.y + all.y * in_world.z)));
             }
+    water.edited(touched, before, after, tick32());
     brick_changed.upload(first, size, std::span<const std::uint32_t>(stamps), GL_RED_INTEGER,
                          GL_UNSIGNED_INT);
 }
@@ -129,32 +131,6 @@ void Simulation::Parts::write_region(const Box& region, const std::vector<std::u
                                      const std::vector<std::uint8_t>& after) {
     cells.upload(region.min_vox, region.size(), std::span<const std::uint8_t>(after), byte_layout, byte_type);
     stamp_bricks(region, before, after);
-}
-
-void Simulation::Parts::tick_once(WaterTier tier, int film_threshold) {
-    const auto tick32 = static_cast<std::uint32_t>(tick);
-    const FlowPass::Inputs flow_in{.seed = seed, .tick = tick32, .version = stamp()};
-    const FlowPass::Outputs flow_out{.cells = cells, .brick_changed = brick_changed};
-    if (!springs.empty()) {
-        const auto scope = timers.scope("flow");
-        flow.record_springs(springs, flow_in, flow_out);
-    }
-    {
-        std::optional<gl::Timers::Scope> scope;
-        if (flows()) scope.emplace(timers, "step");
-        switch (tier) {
-            case WaterTier::Block:
-                block_step.record(
-                    {.seed = seed, .tick = tick32, .film_threshold = film_threshold, .version = stamp()},
-                    {.cells = cells, .brick_changed = brick_changed});
-                break;
-        }
-    }
-    if (!drains.empty()) {
-        const auto scope = timers.scope("flow");
-        flow.record_drains(drains, flow_in, flow_out);
-    }
-    ++tick;
 }
 
 Simulation::Simulation(const Scene& scene, gl::Timers& timers)
@@ -172,8 +148,14 @@ void Simulation::step(int n, const Settings& settings) {
     {
         // Nothing between the ticks: one pair of time stamps for many.
         std::optional<gl::Timers::Scope> scope;
-        if (!p.flows()) scope.emplace(p.timers, "step");
-        for (int i = 0; i < n; ++i) p.tick_once(settings.water_tier, settings.film_threshold);
+        if (!p.water.flows()) scope.emplace(p.timers, "step");
+        for (int i = 0; i < n; ++i, ++p.tick)
+            p.water.tick({.tier = settings.water_tier,
+                          .film_threshold = settings.film_threshold,
+                          .always_awake = p.always_awake,
+                          .tick = p.tick32(),
+                          .version = p.stamp()},
+                         {.cells = p.cells, .brick_changed = p.brick_changed}, p.timers);
     }
     p.update_bricks();
 }
@@ -265,7 +247,7 @@ Cells Simulation::read_cells() const {
 }
 
 FlowTotals Simulation::flow_totals() const {
-    const FlowPass::Counts counts = parts_->flow.counts();
+    const FlowPass::Counts counts = parts_->water.flow().counts();
     return {counts.sprung_water_quanta, counts.drained_water_quanta, counts.sprung_sand_voxels,
             counts.drained_sand_voxels};
 }
@@ -296,6 +278,13 @@ std::uint64_t Simulation::tick() const {
 }
 void Simulation::set_tick(std::uint64_t tick) {
     parts_->tick = tick;
+    parts_->water.wake_all(parts_->tick32());
+}
+void Simulation::set_always_awake(bool on) {
+    parts_->always_awake = on;
+}
+std::uint32_t Simulation::active_bricks() const {
+    return parts_->water.active_bricks();
 }
 std::uint32_t Simulation::last_change() const {
     return parts_->bricks.last_change();
@@ -316,8 +305,7 @@ const gl::Texture& Simulation::brick_changed() const {
 
 std::vector<std::string> Simulation::poll_reload() {
     std::vector<std::string> messages;
-    if (auto message = parts_->block_step.poll_reload()) messages.push_back(*message);
-    parts_->flow.poll_reload(messages);
+    parts_->water.poll_reload(messages);
     parts_->bricks.poll_reload(messages);
     if (auto message = parts_->census_pass.poll_reload()) messages.push_back(*message);
     return messages;

@@ -51,6 +51,10 @@ class Simulation {
     glm::ivec3 size_vox() const;
     std::uint64_t tick() const;
     void set_tick(std::uint64_t tick);  // for tests of counter wrap
+    // For measurements: nothing sleeps.
+    void set_always_awake(bool on);
+    // Bricks with a change in the last SLEEP_TICKS ticks: 0 when all is at rest. Waits for the GPU.
+    std::uint32_t active_bricks() const;
     // Counts every step, edit or load that may have changed a cell.
     std::uint64_t version() const;
     // Low 32 bits of the version() at which any cell last changed: steps of a world at rest leave it. Waits

@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "gl/context.h"
 #include "platform/platform.h"
-#include "reference/water_block.h"
+#include "reference/simulation.h"
 
 namespace tarn {
 
@@ -57,10 +57,9 @@ bool check_water() {
     gl::Timers timers;
     Simulation simulation(scene, timers);
     simulation.step(ticks, scene.settings);
-    Cells reference = scene.cells;
-    for (std::uint32_t tick = 0; tick < ticks; ++tick)
-        water_block_tick(reference, scene.seed, tick, scene.settings.film_threshold);
-    return report(simulation.read_cells() == reference,
+    reference::Simulation reference(scene);
+    reference.step(ticks, scene.settings);
+    return report(simulation.read_cells() == reference.cells(),
                   fmt::format("water: {} ticks equal the CPU reference", ticks));
 }
 

@@ -12,7 +12,7 @@ namespace tarn {
 
 namespace {
 
-constexpr const char* water_tier_names[] = {"block"};
+constexpr const char* water_tier_names[] = {"block", "level", "pressure"};
 constexpr const char* quality_names[] = {"baseline", "fast", "balanced", "quality", "exact"};
 constexpr const char* traversal_names[] = {"voxel", "distance"};
 constexpr const char* light_sampling_names[] = {"none", "sun", "sun_and_sky"};

@@ -10,7 +10,7 @@
 
 namespace tarn {
 
-enum class WaterTier { Block };
+enum class WaterTier { Block, Level, Pressure };
 enum class Quality { Baseline, Fast, Balanced, Quality, Exact };
 enum class Traversal { Voxel, Distance };
 enum class LightSampling { None, Sun, SunAndSky };

@@ -1,7 +1,7 @@
 #include "measure/water_stepper.h"
 
 #include "app/simulation.h"
-#include "reference/water_block.h"
+#include "reference/simulation.h"
 
 namespace tarn {
 
@@ -10,7 +10,9 @@ namespace {
 class GpuStepper : public WaterStepper {
   public:
     GpuStepper(const Scene& scene, const StepperOptions& options)
-        : settings_(options.settings), simulation_(scene, timers_) {}
+        : settings_(options.settings), simulation_(scene, timers_) {
+        simulation_.set_always_awake(options.awake);
+    }
 
     void tick() override {
         simulation_.step(1, settings_);
@@ -19,6 +21,7 @@ class GpuStepper : public WaterStepper {
     }
     Cells read() override { return simulation_.read_cells(); }
     void write(const std::vector<CellChange>& changes) override { simulation_.write(changes); }
+    std::optional<std::uint32_t> active_bricks() override { return simulation_.active_bricks(); }
 
   private:
     Settings settings_;
@@ -29,25 +32,22 @@ class GpuStepper : public WaterStepper {
 class ReferenceStepper : public WaterStepper {
   public:
     ReferenceStepper(const Scene& scene, const StepperOptions& options)
-        : settings_(options.settings), seed_(scene.seed), cells_(scene.cells) {}
-
-    void tick() override {
-        switch (settings_.water_tier) {
-            case WaterTier::Block:
-                water_block_tick(cells_, seed_, tick_, settings_.film_threshold);
-                break;
-        }
-        ++tick_;
+        : settings_(options.settings), simulation_(scene) {
+        simulation_.set_always_awake(options.awake);
     }
-    Cells read() override { return cells_; }
+
+    void tick() override { simulation_.step(1, settings_); }
+    Cells read() override { return simulation_.cells(); }
     void write(const std::vector<CellChange>& changes) override {
-        for (const CellChange& change : changes) cells_.at(change.cell) = change.after;
+        for (const CellChange& change : changes) simulation_.write(change.cell, change.after);
+    }
+    std::optional<std::uint32_t> active_bricks() override {
+        return static_cast<std::uint32_t>(simulation_.active_bricks());
     }
 
   private:
     Settings settings_;
-    std::uint32_t seed_, tick_ = 0;
-    Cells cells_;
+    reference::Simulation simulation_;
 };
 
 }  // namespace

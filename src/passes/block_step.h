@@ -6,6 +6,7 @@
 
 #include "gl/program.h"
 #include "gl/texture.h"
+#include "passes/activity.h"
 
 namespace tarn {
 
@@ -13,8 +14,9 @@ class BlockStepPass {
   public:
     struct Inputs {
         std::uint32_t seed, tick;
-        int film_threshold;     // quanta
-        std::uint32_t version;  // stamped on bricks whose cells change
+        int film_threshold;            // quanta
+        std::uint32_t version;         // stamped on bricks whose cells change
+        const ActivityPass& activity;  // begun for this tick with the grid below
     };
     struct Outputs {
         gl::Texture& cells;          // R8UI
@@ -22,6 +24,7 @@ class BlockStepPass {
     };
 
     BlockStepPass();
+    static BlockGrid grid(std::uint32_t seed, std::uint32_t tick);
     // Cells are coherent for later image access and texture fetches.
     void record(const Inputs& in, const Outputs& out) const;
     std::optional<std::string> poll_reload() { return program_.poll_reload(); }

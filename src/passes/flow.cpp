@@ -1,5 +1,6 @@
 #include "passes/flow.h"
 
+#include "shared/bindings.h"
 #include "world/schedule.h"
 
 namespace tarn {
@@ -42,8 +43,9 @@ void FlowPass::dispatch(const gl::Program& program, const Box& region, const Inp
     program.set("region_min_vox", region.min_vox);
     program.set("region_size_vox", region.size());
     program.set("version", in.version);
-    out.cells.bind_image(0, GL_READ_WRITE);
-    out.brick_changed.bind_image(1, GL_WRITE_ONLY);
+    in.activity.bind(program, in.tick);
+    out.cells.bind_image(IMAGE_CELLS, GL_READ_WRITE);
+    out.brick_changed.bind_image(IMAGE_BRICK_CHANGED, GL_WRITE_ONLY);
     counters_.bind_storage(0);
     program.dispatch_for(region.size(), {8, 4, 8});
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |

@@ -9,6 +9,7 @@
 #include "gl/buffer.h"
 #include "gl/program.h"
 #include "gl/texture.h"
+#include "passes/activity.h"
 #include "world/scene.h"
 
 namespace tarn {
@@ -17,7 +18,8 @@ class FlowPass {
   public:
     struct Inputs {
         std::uint32_t seed, tick;
-        std::uint32_t version;  // stamped on bricks whose cells change
+        std::uint32_t version;         // stamped on bricks whose cells change
+        const ActivityPass& activity;  // begun for this tick
     };
     struct Outputs {
         gl::Texture& cells;          // R8UI

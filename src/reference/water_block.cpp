@@ -1,12 +1,14 @@
 #include "reference/water_block.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 
 #include "shared/hash.h"
+#include "shared/water.h"
 #include "world/schedule.h"
 
-namespace tarn {
+namespace tarn::reference {
 
 namespace {
 
@@ -167,20 +169,40 @@ void step(Block block, std::uint32_t seed, int film_threshold, bool squares) {
     }
 }
 
+glm::ivec3 corner(int k) {
+    return {k & 1, k >> 1 & 1, k >> 2};
+}
+
+std::array<std::uint8_t, 8> bytes_of_block(const Cells& cells, glm::ivec3 first) {
+    std::array<std::uint8_t, 8> bytes{};
+    for (int k = 0; k < 8; ++k) bytes[k] = cells.get(first + corner(k), MATERIAL_WALL);
+    return bytes;
+}
+
 }  // namespace
 
-void water_block_tick(Cells& cells, std::uint32_t seed, std::uint32_t tick, int film_threshold) {
+void water_block_tick(Cells& cells, std::uint32_t seed, std::uint32_t tick, int film_threshold,
+                      Activity& activity) {
     const glm::ivec3 size = cells.size_vox();
     const glm::ivec3 offset = block_offset_vox(seed, tick, glm::ivec3(2));
     const std::uint32_t tick_key = hash2(seed, tick);
+    const auto tile_of = [&](glm::ivec3 block) {
+        return (block + offset) / BLOCK_TILE * BLOCK_TILE - offset;
+    };
     for (int z = -offset.z; z < size.z; z += 2)
         for (int y = -offset.y; y < size.y; y += 2)
             for (int x = -offset.x; x < size.x; x += 2) {
+                const glm::ivec3 first(x, y, z);
+                if (!activity.runs(tile_of(first), glm::ivec3(BLOCK_TILE))) continue;
                 const std::uint32_t xz = static_cast<std::uint32_t>(x + 1) | static_cast<std::uint32_t>(z + 1)
                                                                                  << 16;
                 const std::uint32_t chance = hash3(tick_key, xz, static_cast<std::uint32_t>(y + 1));
-                step(Block(cells, {x, y, z}, chance & 7u), seed, film_threshold, (chance >> 3) % 4 == 0);
+                const auto before = bytes_of_block(cells, first);
+                step(Block(cells, first, chance & 7u), seed, film_threshold, (chance >> 3) % 4 == 0);
+                const auto after = bytes_of_block(cells, first);
+                for (int k = 0; k < 8; ++k)
+                    if (before[k] != after[k]) activity.changed(first + corner(k));
             }
 }
 
-}  // namespace tarn
+}  // namespace tarn::reference

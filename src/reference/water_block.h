@@ -2,12 +2,15 @@
 #pragma once
 #include <cstdint>
 
+#include "reference/activity.h"
 #include "world/cells.h"
 
-namespace tarn {
+namespace tarn::reference {
 
-// One tick. `film_threshold` in quanta. Any byte is allowed in `cells`: those that are not air, sand or water
-// are solid, as is what lies outside the world.
-void water_block_tick(Cells& cells, std::uint32_t seed, std::uint32_t tick, int film_threshold);
+// One tick. `film_threshold` in quanta. `activity.begin_tick()` has been called; changes are told to it. Any
+// byte is allowed in `cells`: those that are not air, sand or water are solid, as is what lies outside the
+// world.
+void water_block_tick(Cells& cells, std::uint32_t seed, std::uint32_t tick, int film_threshold,
+                      Activity& activity);
 
-}  // namespace tarn
+}  // namespace tarn::reference

@@ -11,7 +11,7 @@ namespace tarn {
 
 namespace {
 
-constexpr int block_side_max = 32;
+constexpr int block_side_max = 64;
 
 int offset_along(std::uint32_t seed, std::uint32_t tick, std::uint32_t axis, int side) {
     CHECK(side >= 1 && side <= block_side_max && (side & (side - 1)) == 0);

@@ -10,7 +10,7 @@ namespace tarn {
 
 // Along each axis, the blocks of `block_vox` cells of this tick begin at -offset + k * block, 0 <= offset <
 // block. Every run of n ticks from a multiple of n uses each offset of an axis with block side n once, in an
-// order that depends on (seed, run, axis); the axes are independent. Sides are powers of two up to 32, so
+// order that depends on (seed, run, axis); the axes are independent. Sides are powers of two up to 64, so
 // that the runs stay whole where the tick wraps at 2^32.
 glm::ivec3 block_offset_vox(std::uint32_t seed, std::uint32_t tick, glm::ivec3 block_vox);
 

@@ -7,8 +7,7 @@
 #include "gpu/gl_test.h"
 #include "gpu/worlds.h"
 #include "passes/flow.h"
-#include "reference/flow.h"
-#include "reference/water_block.h"
+#include "reference/simulation.h"
 #include "world/schedule.h"
 
 namespace tarn {
@@ -20,23 +19,23 @@ FlowTally tally_of(const FlowTotals& t) {
     return {t.sprung_water_quanta, t.drained_water_quanta, t.sprung_sand_voxels, t.drained_sand_voxels};
 }
 
-void expect_equal_run(const Scene& scene, std::uint64_t first_tick, int ticks) {
+void expect_equal_run(const Scene& scene, WaterTier tier, std::uint64_t first_tick, int ticks) {
+    SCOPED_TRACE(choice_names<WaterTier>()[static_cast<std::size_t>(tier)]);
     gl::Timers timers;
     Simulation simulation(scene, timers);
     simulation.set_tick(first_tick);
-    const Settings settings;
-    Cells reference = scene.cells;
-    FlowTally tally;
+    Settings settings;
+    settings.water_tier = tier;
+    reference::Simulation reference(scene, first_tick);
     const Census start = take_census(scene.cells);
     for (int i = 0; i < ticks; ++i) {
         simulation.step(1, settings);
-        const auto tick = static_cast<std::uint32_t>(first_tick + i);
-        springs_tick(reference, scene.springs, scene.seed, tick, tally);
-        water_block_tick(reference, scene.seed, tick, settings.film_threshold);
-        drains_tick(reference, scene.drains, tally);
-        ASSERT_TRUE(same_cells(simulation.read_cells(), reference)) << "after tick " << first_tick + i;
+        reference.step(1, settings);
+        const FlowTally& tally = reference.flow();
+        ASSERT_TRUE(same_cells(simulation.read_cells(), reference.cells()))
+            << "after tick " << first_tick + i;
         ASSERT_EQ(tally_of(simulation.flow_totals()), tally) << "after tick " << first_tick + i;
-        const Census now = take_census(reference);
+        const Census now = take_census(reference.cells());
         ASSERT_EQ(now.water_quanta + tally.drained_water_quanta,
                   start.water_quanta + tally.sprung_water_quanta);
         ASSERT_EQ(now.voxels[MATERIAL_SAND] + tally.drained_sand_voxels,
@@ -67,22 +66,26 @@ TEST_F(FlowTest, equals_reference_in_bytes_and_counts) {
          {glm::ivec3(1, 1, 1), glm::ivec3(7, 13, 5), glm::ivec3(31, 17, 22), glm::ivec3(1, 40, 1)})
         for (const Soup soup : {Soup::AllBytes, Soup::Layers}) {
             SCOPED_TRACE(fmt::format("{}x{}x{}", size.x, size.y, size.z));
-            expect_equal_run(flowing_scene(size, soup), 0, 60);
-            if (HasFatalFailure()) return;
+            for (const WaterTier tier : {WaterTier::Block, WaterTier::Level, WaterTier::Pressure}) {
+                expect_equal_run(flowing_scene(size, soup), tier, 0, 60);
+                if (HasFatalFailure()) return;
+            }
         }
 }
 
 TEST_F(FlowTest, equals_reference_across_the_tick_counters_wrap) {
-    expect_equal_run(flowing_scene({9, 10, 11}, Soup::Matter), (std::uint64_t{1} << 32) - 10, 20);
+    for (const WaterTier tier : {WaterTier::Block, WaterTier::Level, WaterTier::Pressure})
+        expect_equal_run(flowing_scene({9, 10, 11}, Soup::Matter), tier, (std::uint64_t{1} << 32) - 10, 20);
 }
 
 TEST_F(FlowTest, counts_pass_32_bits) {
     constexpr std::uint64_t near = 0xfffffff0u;
     const FlowPass flow(FlowPass::Counts{near, near + (std::uint64_t{5} << 32), near, near});
     gl::Texture cells({.label = "cells", .format = GL_R8UI, .size = {8, 8, 8}});
-    gl::Texture changed({.label = "changed", .format = GL_R32UI, .size = {1, 1, 1}});
+    gl::Texture changed({.label = "changed", .format = GL_R32UI, .size = {2, 2, 2}});
     cells.clear();
-    const FlowPass::Inputs in{.seed = 1, .tick = 0, .version = 1};
+    const ActivityPass activity({8, 8, 8});
+    const FlowPass::Inputs in{.seed = 1, .tick = 0, .version = 1, .activity = activity};
     const FlowPass::Outputs out{.cells = cells, .brick_changed = changed};
     const Box low{{0, 0, 0}, {8, 4, 8}};
     const Box high{{0, 4, 0}, {8, 8, 8}};

@@ -1,69 +1,123 @@
 // The water's step on the GPU equals the serial reference in every byte, whatever the world holds.
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "app/simulation.h"
 #include "gpu/gl_test.h"
 #include "gpu/worlds.h"
-#include "reference/water_block.h"
+#include "reference/simulation.h"
 
 namespace tarn {
 namespace {
 
 using WaterTest = GlTest;
 
-void expect_equal_steps(glm::ivec3 size_vox, Soup soup, std::uint32_t seed, std::uint64_t first_tick,
-                        int ticks, int ticks_between_looks, int film_threshold) {
-    SCOPED_TRACE(fmt::format("size {}x{}x{}, soup {}, seed {}, from tick {}, film {}", size_vox.x, size_vox.y,
-                             size_vox.z, static_cast<int>(soup), seed, first_tick, film_threshold));
+constexpr std::array tiers{WaterTier::Block, WaterTier::Level, WaterTier::Pressure};
+
+struct Run {
+    glm::ivec3 size_vox{1};
+    Soup soup = Soup::Matter;
+    std::uint32_t seed = 1;
+    std::uint64_t first_tick = 0;
+    int ticks = 100;
+    int ticks_between_looks = 10;
+    int film_threshold = 3;
+};
+
+void expect_equal_steps(WaterTier tier, const Run& run) {
+    SCOPED_TRACE(fmt::format("{}, size {}x{}x{}, soup {}, seed {}, from tick {}, film {}",
+                             choice_names<WaterTier>()[static_cast<std::size_t>(tier)], run.size_vox.x,
+                             run.size_vox.y, run.size_vox.z, static_cast<int>(run.soup), run.seed,
+                             run.first_tick, run.film_threshold));
     Scene scene;
-    scene.seed = seed;
-    scene.cells = make_soup(size_vox, soup, seed * 977 + 13);
+    scene.seed = run.seed;
+    scene.cells = make_soup(run.size_vox, run.soup, run.seed * 977 + 13);
     Settings settings;
-    settings.film_threshold = film_threshold;
+    settings.water_tier = tier;
+    settings.film_threshold = run.film_threshold;
     gl::Timers timers;
     Simulation simulation(scene, timers);
-    simulation.set_tick(first_tick);
-    Cells reference = scene.cells;
-    for (int done = 0; done < ticks; done += ticks_between_looks) {
-        simulation.step(ticks_between_looks, settings);
-        for (int i = 0; i < ticks_between_looks; ++i)
-            water_block_tick(reference, seed, static_cast<std::uint32_t>(first_tick + done + i),
-                             film_threshold);
-        ASSERT_TRUE(same_cells(simulation.read_cells(), reference))
-            << "after tick " << first_tick + done + ticks_between_looks - 1;
+    simulation.set_tick(run.first_tick);
+    reference::Simulation reference(scene, run.first_tick);
+    for (int done = 0; done < run.ticks; done += run.ticks_between_looks) {
+        simulation.step(run.ticks_between_looks, settings);
+        reference.step(run.ticks_between_looks, settings);
+        ASSERT_TRUE(same_cells(simulation.read_cells(), reference.cells()))
+            << "after tick " << reference.tick() - 1;
     }
-    EXPECT_EQ(simulation.tick(), first_tick + ticks);
-    EXPECT_EQ(take_census(reference).water_quanta, take_census(scene.cells).water_quanta);
-    EXPECT_EQ(take_census(reference).voxels[MATERIAL_SAND], take_census(scene.cells).voxels[MATERIAL_SAND]);
+    EXPECT_EQ(simulation.tick(), run.first_tick + run.ticks);
+    const Census start = take_census(scene.cells);
+    const Census end = take_census(reference.cells());
+    EXPECT_EQ(end.water_quanta, start.water_quanta);
+    EXPECT_EQ(end.voxels[MATERIAL_SAND], start.voxels[MATERIAL_SAND]);
 }
 
 TEST_F(WaterTest, equals_reference_for_odd_sizes_and_seeds) {
-    for (const glm::ivec3 size : {glm::ivec3(1, 1, 1), glm::ivec3(2, 2, 2), glm::ivec3(7, 13, 5),
-                                  glm::ivec3(1, 40, 1), glm::ivec3(61, 37, 45)})
-        for (const Soup soup : {Soup::AllBytes, Soup::Matter, Soup::Water, Soup::Layers}) {
-            const bool large = size.x > 32;
-            for (const std::uint32_t seed : {1u, 77u, 0xffffffffu}) {
-                if (large && seed == 77u) continue;
-                expect_equal_steps(size, soup, seed, 0, large ? 100 : 200, large ? 20 : 5, 3);
-                if (HasFatalFailure()) return;
+    for (const WaterTier tier : tiers)
+        for (const glm::ivec3 size : {glm::ivec3(1, 1, 1), glm::ivec3(2, 2, 2), glm::ivec3(7, 13, 5),
+                                      glm::ivec3(1, 40, 1), glm::ivec3(61, 37, 45)})
+            for (const Soup soup : {Soup::AllBytes, Soup::Matter, Soup::Water, Soup::Layers}) {
+                const bool large = size.x > 32;
+                for (const std::uint32_t seed : {1u, 77u, 0xffffffffu}) {
+                    if (large && seed == 77u) continue;
+                    expect_equal_steps(tier, {.size_vox = size,
+                                              .soup = soup,
+                                              .seed = seed,
+                                              .ticks = large ? 60 : 200,
+                                              .ticks_between_looks = large ? 20 : 5});
+                    if (HasFatalFailure()) return;
+                }
             }
-        }
 }
 
-TEST_F(WaterTest, equals_reference_for_hundreds_of_ticks) {
-    expect_equal_steps({64, 48, 64}, Soup::Layers, 5, 1000, 300, 60, 3);
+// Long enough to fall asleep, and to be woken by heads that arrive.
+TEST_F(WaterTest, equals_reference_for_thousands_of_ticks) {
+    for (const WaterTier tier : tiers)
+        expect_equal_steps(tier, {.size_vox = {23, 19, 21},
+                                  .soup = Soup::Layers,
+                                  .seed = 5,
+                                  .ticks = 3000,
+                                  .ticks_between_looks = 250});
+}
+
+TEST_F(WaterTest, equals_reference_for_hundreds_of_ticks_of_a_large_world) {
+    for (const WaterTier tier : tiers)
+        expect_equal_steps(tier, {.size_vox = {64, 48, 64},
+                                  .soup = Soup::Layers,
+                                  .seed = 5,
+                                  .first_tick = 1000,
+                                  .ticks = 200,
+                                  .ticks_between_looks = 50});
 }
 
 TEST_F(WaterTest, equals_reference_across_the_tick_counters_wrap) {
     constexpr std::uint64_t wrap = std::uint64_t{1} << 32;
-    for (const Soup soup : {Soup::Matter, Soup::Water}) {
-        expect_equal_steps({7, 13, 5}, soup, 3, wrap - 50, 100, 1, 3);
-        expect_equal_steps({21, 16, 19}, soup, 3, (wrap << 7) - 7, 20, 1, 3);
-    }
+    for (const WaterTier tier : tiers)
+        for (const Soup soup : {Soup::Matter, Soup::Water}) {
+            expect_equal_steps(tier, {.size_vox = {7, 13, 5},
+                                      .soup = soup,
+                                      .seed = 3,
+                                      .first_tick = wrap - 150,
+                                      .ticks = 300,
+                                      .ticks_between_looks = 1});
+            expect_equal_steps(tier, {.size_vox = {21, 16, 19},
+                                      .soup = soup,
+                                      .seed = 3,
+                                      .first_tick = (wrap << 7) - 7,
+                                      .ticks = 20,
+                                      .ticks_between_looks = 1});
+        }
 }
 
 TEST_F(WaterTest, equals_reference_for_every_film_threshold) {
-    for (const int film : {1, 2, 5, 16}) expect_equal_steps({19, 12, 23}, Soup::Water, 9, 0, 60, 10, film);
+    for (const WaterTier tier : tiers)
+        for (const int film : {1, 2, 5, 16})
+            expect_equal_steps(tier, {.size_vox = {19, 12, 23},
+                                      .soup = Soup::Water,
+                                      .seed = 9,
+                                      .ticks = 60,
+                                      .film_threshold = film});
 }
 
 TEST_F(WaterTest, same_seed_gives_the_same_bytes_and_another_does_not) {
@@ -92,18 +146,24 @@ TEST_F(WaterTest, water_falls_into_shafts_and_sand_sinks) {
                                             : y == 20 && x > 8 && x < 12 ? MATERIAL_SAND
                                                                          : MATERIAL_AIR;
     for (int y = 0; y < 8; ++y) scene.cells.at({3, y, 17}) = MATERIAL_AIR;
-    gl::Timers timers;
-    Simulation simulation(scene, timers);
-    simulation.step(200, Settings{});
-    const Cells cells = simulation.read_cells();
-    for (int y = 0; y < 8; ++y) EXPECT_EQ(cells.at({3, y, 17}), MATERIAL_WATER_FULL) << y;
-    for (int z = 0; z < 24; ++z)
-        for (int x = 0; x < 24; ++x)
-            for (int y = 1; y < 24; ++y) {
-                if (cells.at({x, y, z}) != MATERIAL_SAND) continue;
-                const std::uint8_t below = cells.at({x, y - 1, z});
-                EXPECT_TRUE(below == MATERIAL_STONE || below == MATERIAL_SAND) << x << ' ' << y << ' ' << z;
-            }
+    for (const WaterTier tier : tiers) {
+        SCOPED_TRACE(choice_names<WaterTier>()[static_cast<std::size_t>(tier)]);
+        gl::Timers timers;
+        Simulation simulation(scene, timers);
+        Settings settings;
+        settings.water_tier = tier;
+        simulation.step(200, settings);
+        const Cells cells = simulation.read_cells();
+        for (int y = 0; y < 8; ++y) EXPECT_EQ(cells.at({3, y, 17}), MATERIAL_WATER_FULL) << y;
+        for (int z = 0; z < 24; ++z)
+            for (int x = 0; x < 24; ++x)
+                for (int y = 1; y < 24; ++y) {
+                    if (cells.at({x, y, z}) != MATERIAL_SAND) continue;
+                    const std::uint8_t below = cells.at({x, y - 1, z});
+                    EXPECT_TRUE(below == MATERIAL_STONE || below == MATERIAL_SAND)
+                        << x << ' ' << y << ' ' << z;
+                }
+    }
 }
 
 }  // namespace

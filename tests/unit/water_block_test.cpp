@@ -29,7 +29,11 @@ Cells make_cells(glm::ivec3 size_vox, const Fill& fill) {
 }
 
 void run(Cells& cells, std::uint32_t ticks, std::uint32_t seed = 1) {
-    for (std::uint32_t tick = 0; tick < ticks; ++tick) water_block_tick(cells, seed, tick, film);
+    reference::Activity activity(cells.size_vox());
+    for (std::uint32_t tick = 0; tick < ticks; ++tick) {
+        activity.begin_tick();
+        reference::water_block_tick(cells, seed, tick, film, activity);
+    }
 }
 
 // Height of the topmost `material` in a column, 0 if none.
@@ -94,12 +98,15 @@ TEST(WaterBlock, differences_of_one_quantum_and_films_rest) {
 
 TEST(WaterBlock, spreads_evenly_in_all_directions) {
     Cells cells({64, 10, 64});
+    reference::Activity activity(cells.size_vox());
+    activity.set_always_awake(true);
     for (std::uint32_t tick = 0; tick < 700; ++tick) {
         for (int i = 0; i < 4 && tick < 180; ++i) {
             std::uint8_t& byte = cells.at({31 + i % 2, 8, 31 + i / 2});
             if (byte == MATERIAL_AIR) byte = full_water;
         }
-        water_block_tick(cells, 5, tick, film);
+        activity.begin_tick();
+        reference::water_block_tick(cells, 5, tick, film, activity);
     }
     const glm::dvec2 reach = reach_along_axes_and_diagonals(cells, MATERIAL_WATER);
     EXPECT_GT(reach.x, 10);

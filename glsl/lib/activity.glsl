@@ -1,0 +1,45 @@
+// Telling that a cell changed: stamps its brick for the picture and for the sleep of the water, and puts a brick
+// that was asleep on the list of active ones. src/passes/activity.h owns the buffers.
+#include "shared/bindings.h"
+#include "shared/water.h"
+#include "lib/work_list.glsl"
+
+layout(r32ui, binding = IMAGE_BRICK_CHANGED) writeonly uniform uimage3D brick_changed;
+
+// The tick in which a cell of each brick last changed.
+layout(std430, binding = STORAGE_CHANGED_TICK) coherent buffer ChangedTick { uint changed_tick[]; };
+// Bricks with a change in the last SLEEP_TICKS ticks, for the tick to come.
+layout(std430, binding = STORAGE_ACTIVE_NEXT) coherent buffer ActiveNext {
+    WorkHeader active_next;
+    uint active_next_bricks[];
+};
+
+uniform ivec3 size_bricks;
+uniform uint tick;
+uniform uint version;
+
+void append_active(uint brick) {
+    uint slot = atomicAdd(active_next.count, 1u);
+    active_next_bricks[slot] = brick;
+    if (slot % ACTIVE_PER_GROUP == 0u) {
+        uint group = slot / ACTIVE_PER_GROUP;
+        atomicMax(active_next.groups_x, min(group + 1u, WORK_GROUPS_PER_ROW));
+        if (group % WORK_GROUPS_PER_ROW == 0u) atomicAdd(active_next.groups_y, 1u);
+    }
+}
+
+void mark_active(uint brick) {
+    if (changed_tick[brick] == tick) return;
+    uint before = atomicExchange(changed_tick[brick], tick);
+    // A brick that has been unchanged for longer is on no list.
+    if (tick - before > uint(SLEEP_TICKS)) append_active(brick);
+}
+
+void mark_brick_active(ivec3 brick) {
+    mark_active(uint(brick.x + size_bricks.x * (brick.y + size_bricks.y * brick.z)));
+}
+
+void mark_changed(ivec3 cell) {
+    imageStore(brick_changed, cell / BRICK_SIDE, uvec4(version));
+    mark_brick_active(cell / BRICK_SIDE);
+}

@@ -1,0 +1,13 @@
+// Wakes a list of bricks: what was edited between two ticks. An invocation a brick.
+#include "lib/activity.glsl"
+
+layout(local_size_x = ACTIVE_PER_GROUP) in;
+
+layout(std430, binding = STORAGE_ACTIVE) readonly buffer Touched { uint touched_bricks[]; };
+
+uniform uint count;
+
+void main() {
+    uint item = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * gl_NumWorkGroups.x * uint(ACTIVE_PER_GROUP);
+    if (item < count) mark_active(touched_bricks[item]);
+}

@@ -1,0 +1,244 @@
+// The tall blocks of the level and pressure tiers, TALL_SIDE x TALL_HEIGHT x TALL_SIDE cells: water falls, sand sinks
+// and slides, lines level along x and z or along the diagonals; with PRESSURE confined water is pressed on. A
+// workgroup a block, an invocation a column, then a line.
+#define GRID_CELLS (TALL_SIDE * TALL_SIDE * TALL_HEIGHT)
+#include "shared/water.h"
+#include "lib/level_block.glsl"
+
+layout(local_size_x = TALL_SIDE, local_size_y = TALL_SIDE) in;
+
+uniform bool diagonal;  // lines of this tick
+
+const int LAYER = TALL_SIDE * TALL_SIDE;
+const int HAS_WATER = 1;
+const int HAS_SAND = 2;
+shared int matter;
+
+#ifdef PRESSURE
+shared uint head[GRID_CELLS];
+#endif
+
+int index_of(int x, int y, int z) { return x + TALL_SIDE * z + LAYER * y; }
+
+// A column: sand sinks, water falls, unless the head below holds it.
+void fall(int upper_at, int upper_y, bool sinks_in_water) {
+    int upper = grid[upper_at];
+    int lower = grid[upper_at - LAYER];
+    if (!is_open(lower)) return;
+    if (upper == SAND) {
+        if (lower != 0 && !sinks_in_water) return;
+        grid[upper_at] = lower;
+        grid[upper_at - LAYER] = SAND;
+    } else if (is_open(upper) && upper > 0 && lower < FULL) {
+#ifdef PRESSURE
+        uint h = head[upper_at - LAYER];
+        if (is_confined(h) && 2 * lower >= FULL &&
+            height_of(h) >= surface_quarters(upper_y, upper) + HEAD_PER_VOXEL)
+            return;
+#endif
+        int moved = min(upper, FULL - lower);
+        grid[upper_at] = upper - moved;
+        grid[upper_at - LAYER] = lower + moved;
+    }
+}
+
+// Sand that rests slides to the bottom of a neighbouring column of its sub-block of 2x2x2.
+void slide_sand(ivec3 first, uint sub) {
+    uint way = hash4(sub, uint(first.x), uint(first.y), uint(first.z));
+    for (uint k = 0u; k < 4u; ++k) {
+        uint i = (k + way) & 3u;
+        int at = index_of(first.x + int(i & 1u), first.y, first.z + int(i >> 1));
+        if (grid[at + LAYER] != SAND || is_open(grid[at])) continue;
+        bool z_first = (way >> (4u + k) & 1u) != 0u;
+        for (uint s = 0u; s < 2u; ++s) {
+            uint j = i ^ ((s == 0u) == z_first ? 2u : 1u);
+            int to = index_of(first.x + int(j & 1u), first.y, first.z + int(j >> 1));
+            if (!is_open(grid[to]) || !is_open(grid[to + LAYER])) continue;
+            grid[at + LAYER] = grid[to];
+            grid[to] = SAND;
+            break;
+        }
+    }
+}
+
+// What each cell of this invocation's column stands on. Of the block's lowest layer only the world's floor is known.
+void find_supports(int column, int world_y) {
+    int below = CLOSED;
+    bool below_pressed = false;
+    for (int y = 0; y < TALL_HEIGHT; ++y) {
+        int content = content_in(grid[column + LAYER * y]);
+        int flags = support_of(below);
+        if (below_pressed) flags |= STANDS;
+#ifdef PRESSURE
+        below_pressed = is_pressed(head[column + LAYER * y], world_y + y);
+        if (below_pressed) flags |= PRESSED;
+#endif
+        grid[column + LAYER * y] = content | flags;
+        below = content;
+    }
+}
+
+void level_axes(int lowest, bool along_x, int lane, uint chance) {
+    int i = lane % TALL_SIDE;
+    int y = lane / TALL_SIDE;
+    if (y < lowest || y >= TALL_HEIGHT) return;
+    Line line = Line(along_x ? index_of(0, y, i) : index_of(i, y, 0), along_x ? 1 : TALL_SIDE, TALL_SIDE, 0, 0);
+    level_line(line, LineRule(film_threshold, 0, 1), line_chance(chance, along_x ? 0 : 1, y, i));
+}
+
+void level_diagonals(int lowest, bool rising, int lane, uint chance) {
+    const int lines = 2 * TALL_SIDE - 1;
+    int i = lane % lines;
+    int y = lane / lines;
+    if (y < lowest || y >= TALL_HEIGHT) return;
+    // Lines start on the side z = 0, then on the side where x does not change.
+    int along = min(i, TALL_SIDE - 1);
+    ivec2 start = ivec2(rising ? TALL_SIDE - 1 - along : along, max(0, i - TALL_SIDE + 1));
+    int step_x = rising ? 1 : -1;
+    int count = min(rising ? TALL_SIDE - start.x : start.x + 1, TALL_SIDE - start.y);
+    Line line = Line(index_of(start.x, y, start.y), step_x + TALL_SIDE, count, step_x, TALL_SIDE);
+    level_line(line, LineRule(film_threshold, 0, 2), line_chance(chance, rising ? 2 : 3, y, i));
+}
+
+#ifdef PRESSURE
+// Confined water flows from the cell with more head, which keeps half.
+void press_sideways(int from, int to, int y) {
+    int giving = content_in(grid[from]);
+    int taking = content_in(grid[to]);
+    if (!is_open(giving) || !is_open(taking) || !is_pressed(head[to], y) || head[from] <= head[to]) return;
+    int moved = min(max(0, giving - FULL / 2), FULL - taking);
+    grid[from] -= moved;
+    grid[to] += moved;
+}
+
+void press_up(int lower, ivec3 upper_local, int upper_y, uint chance) {
+    int upper = lower + LAYER;
+    int giving = content_in(grid[lower]);
+    int taking = content_in(grid[upper]);
+    uint h = head[lower];
+    if (!is_open(giving) || !is_open(taking) || !is_confined(h) || taking == FULL || giving == 0) return;
+    int height = surface_quarters(upper_y, taking);
+    if (height_of(h) < height + HEAD_PER_VOXEL || head[upper] > h || upper_local.y + 1 >= TALL_HEIGHT) return;
+    int moved = min(max(0, giving - FULL / 2), FULL - taking);
+    if (content_in(grid[upper + LAYER]) == 0) {
+        // A free surface rises slowly.
+        if (giving < FULL) return;
+        uint random = hash3(chance, uint(upper_local.x | upper_local.y << 8 | upper_local.z << 16), 0u) & 0xffffu;
+        uint quanta_65536 =
+            uint(height_of(h) - height) * (uint(FULL) * 65536u / uint(HEAD_PER_VOXEL * HEAD_RISE_TICKS));
+        moved = min(moved, int((quanta_65536 + random) >> 16));
+    }
+    if (moved == 0) return;
+    if (head[upper] == 0u) head[upper] = h - HEAD_STEP;
+    grid[lower] -= moved;
+    grid[upper] += moved;
+}
+
+// Water above that is nearer to the source flows down, whatever holds it.
+void press_down(int upper) {
+    int lower = upper - LAYER;
+    int giving = content_in(grid[upper]);
+    int taking = content_in(grid[lower]);
+    if (!is_open(giving) || !is_open(taking) || !is_confined(head[lower]) || head[upper] <= head[lower]) return;
+    int moved = min(giving, FULL - taking);
+    grid[upper] -= moved;
+    grid[lower] += moved;
+}
+
+// From the far end of each line towards the source, so that room travels the whole line.
+void press(int axis, int lane, ivec3 corner, uint chance) {
+    if (axis == 1) {
+        ivec3 local = ivec3(lane % TALL_SIDE, 0, lane / TALL_SIDE);
+        int column = index_of(local.x, 0, local.z);
+        for (int y = TALL_HEIGHT - 2; y >= 0; --y)
+            press_up(column + LAYER * y, ivec3(local.x, y + 1, local.z), corner.y + y + 1, chance);
+        for (int y = 1; y < TALL_HEIGHT; ++y) press_down(column + LAYER * y);
+        return;
+    }
+    int y = lane / TALL_SIDE;
+    if (y >= TALL_HEIGHT) return;
+    int j = lane % TALL_SIDE;
+    int start = axis == 0 ? index_of(0, y, j) : index_of(j, y, 0);
+    int stride = axis == 0 ? 1 : TALL_SIDE;
+    for (int i = 0; i + 1 < TALL_SIDE; ++i)
+        press_sideways(start + stride * (i + 1), start + stride * i, corner.y + y);
+    for (int i = TALL_SIDE - 1; i > 0; --i)
+        press_sideways(start + stride * (i - 1), start + stride * i, corner.y + y);
+}
+#endif
+
+void main() {
+    if (work_group() >= blocks.count) return;
+    ivec3 block = block_of_group();
+    ivec3 corner = block * ivec3(TALL_SIDE, TALL_HEIGHT, TALL_SIDE) - offset_vox;
+    uint chance = block_chance(block);
+    int lane = int(gl_LocalInvocationIndex);
+    ivec3 local = ivec3(gl_LocalInvocationID.x, 0, gl_LocalInvocationID.y);
+    int column = index_of(local.x, 0, local.z);
+    if (lane == 0) matter = 0;
+    barrier();
+    int before[TALL_HEIGHT];
+    int found = 0;
+    for (int y = 0; y < TALL_HEIGHT; ++y) {
+        ivec3 cell = corner + local + ivec3(0, y, 0);
+        before[y] = load_content(cell);
+        grid[column + LAYER * y] = before[y];
+        if (before[y] > 0 && is_open(before[y])) found |= HAS_WATER;
+        if (before[y] == SAND) found |= HAS_SAND;
+    }
+    if (found != 0) atomicOr(matter, found);
+    barrier();
+    int moving = matter;
+    if (moving == 0) return;
+#ifdef PRESSURE
+    uint head_before[TALL_HEIGHT];
+    for (int y = 0; y < TALL_HEIGHT; ++y) {
+        ivec3 cell = corner + local + ivec3(0, y, 0);
+        head_before[y] = inside_world(cell) ? imageLoad(acting_head, cell).r : 0u;
+        head[column + LAYER * y] = head_before[y];
+    }
+#endif
+
+    for (int fall_pass = 0; fall_pass < 2; ++fall_pass)
+        for (int y = 1; y < TALL_HEIGHT; ++y) fall(column + LAYER * y, corner.y + y, fall_pass == 0);
+    barrier();
+    if ((moving & HAS_SAND) != 0) {
+        uint sub = hash2(chance, 99u);
+        ivec3 start = ivec3(sub & 1u, sub >> 1 & 1u, sub >> 2 & 1u);
+        ivec3 first = start + 2 * ivec3(lane % 8, lane / 8 % 4, lane / 32);
+        if (all(lessThan(first + 1, ivec3(TALL_SIDE, TALL_HEIGHT, TALL_SIDE)))) slide_sand(first, sub);
+        barrier();
+    }
+    if ((moving & HAS_WATER) != 0) {
+        int lowest = corner.y == 0 ? 0 : 1;
+        for (int pass = 0; pass < 2; ++pass) {
+            find_supports(column, corner.y);
+            barrier();
+            if (diagonal)
+                level_diagonals(lowest, int(chance >> 29 & 1u) == pass, lane, chance);
+            else
+                level_axes(lowest, int(chance >> 30 & 1u) == pass, lane, chance);
+            barrier();
+        }
+#ifdef PRESSURE
+        int first_axis = int(chance >> 5 & 0xffu) % 3;
+        for (int pass = 0; pass < 3; ++pass) {
+            press((first_axis + pass) % 3, lane, corner, chance);
+            barrier();
+        }
+#endif
+    }
+
+    for (int y = 0; y < TALL_HEIGHT; ++y) {
+        ivec3 cell = corner + local + ivec3(0, y, 0);
+        int content = content_in(grid[column + LAYER * y]);
+        if (content != before[y]) {
+            imageStore(cells, cell, uvec4(cell_of(content)));
+            mark_changed(cell);
+        }
+#ifdef PRESSURE
+        if (head[column + LAYER * y] != head_before[y])
+            imageStore(acting_head, cell, uvec4(head[column + LAYER * y]));
+#endif
+    }
+}

@@ -1,0 +1,120 @@
+#include "app/water.h"
+
+#include <algorithm>
+
+namespace tarn {
+
+namespace {
+
+// What no rule moves.
+bool is_fixed(std::uint8_t byte) {
+    return byte != MATERIAL_AIR && byte != MATERIAL_SAND && !is_water(byte);
+}
+
+bool has_overhang(const Cells& cells) {
+    const glm::ivec3 size = cells.size_vox();
+    for (int z = 0; z < size.z; ++z)
+        for (int y = 1; y < size.y; ++y)
+            for (int x = 0; x < size.x; ++x)
+                if (is_fixed(cells.at({x, y, z})) && !is_fixed(cells.at({x, y - 1, z}))) return true;
+    return false;
+}
+
+bool holds_water(const std::vector<std::uint8_t>& bytes) {
+    return std::any_of(bytes.begin(), bytes.end(), [](std::uint8_t byte) { return is_water(byte); });
+}
+
+}  // namespace
+
+Water::Water(const Scene& scene)
+    : seed_(scene.seed),
+      size_vox_(scene.cells.size_vox()),
+      springs_(scene.springs),
+      drains_(scene.drains),
+      activity_(size_vox_) {}
+
+void Water::load(const Cells& cells, std::uint32_t tick) {
+    may_hold_water_ = holds_water(cells.bytes()) ||
+                      std::any_of(springs_.begin(), springs_.end(),
+                                  [](const Spring& s) { return s.material == MATERIAL_WATER; });
+    may_confine_ = has_overhang(cells);
+    head_.reset();
+    activity_.wake_all(tick);
+}
+
+void Water::edited(const std::vector<std::uint32_t>& bricks, const std::vector<std::uint8_t>& before,
+                   const std::vector<std::uint8_t>& after, std::uint32_t tick) {
+    may_hold_water_ = may_hold_water_ || holds_water(after);
+    for (std::size_t i = 0; i < after.size() && !may_confine_; ++i)
+        may_confine_ = is_fixed(before[i]) != is_fixed(after[i]);
+    activity_.touch(bricks, tick);
+}
+
+void Water::tick(const Inputs& in, const Outputs& out, gl::Timers& timers) {
+    // What was at rest under one rule need not be under another.
+    const bool other_rule = last_ && (last_->tier != in.tier || last_->film_threshold != in.film_threshold);
+    if (other_rule || in.always_awake) activity_.wake_all(in.tick);
+    last_ = in;
+    if (in.tier != WaterTier::Pressure) head_.reset();
+    if (in.tier == WaterTier::Pressure && !head_ && may_hold_water_ && may_confine_) head_.emplace(size_vox_);
+
+    if (in.tier == WaterTier::Block) {
+        activity_.begin_tick(in.tick, {{BlockStepPass::grid(seed_, in.tick)}});
+    } else {
+        activity_.begin_tick(in.tick, LevelStepPass::grids(seed_, in.tick));
+    }
+    if (head_) {
+        std::optional<gl::Timers::Scope> scope;
+        if (flows()) scope.emplace(timers, "head");
+        head_->record({.cells = out.cells,
+                       .tick = in.tick,
+                       .film_threshold = in.film_threshold,
+                       .activity = activity_});
+    }
+    const FlowPass::Inputs flow_in{
+        .seed = seed_, .tick = in.tick, .version = in.version, .activity = activity_};
+    const FlowPass::Outputs flow_out{.cells = out.cells, .brick_changed = out.brick_changed};
+    if (!springs_.empty()) {
+        const auto scope = timers.scope("flow");
+        flow_.record_springs(springs_, flow_in, flow_out);
+    }
+    {
+        std::optional<gl::Timers::Scope> scope;
+        if (flows()) scope.emplace(timers, "step");
+        step(in, out);
+    }
+    if (!drains_.empty()) {
+        const auto scope = timers.scope("flow");
+        flow_.record_drains(drains_, flow_in, flow_out);
+    }
+}
+
+void Water::step(const Inputs& in, const Outputs& out) {
+    if (in.tier == WaterTier::Block) {
+        block_step_.record({.seed = seed_,
+                            .tick = in.tick,
+                            .film_threshold = in.film_threshold,
+                            .version = in.version,
+                            .activity = activity_},
+                           {.cells = out.cells, .brick_changed = out.brick_changed});
+        return;
+    }
+    level_step_.record({.seed = seed_,
+                        .tick = in.tick,
+                        .film_threshold = in.film_threshold,
+                        .version = in.version,
+                        .activity = activity_},
+                       {.cells = out.cells,
+                        .brick_changed = out.brick_changed,
+                        .acting_head = head_ ? &head_->acting() : nullptr});
+}
+
+void Water::poll_reload(std::vector<std::string>& messages) {
+    if (auto message = block_step_.poll_reload()) messages.push_back(*message);
+    activity_.poll_reload(messages);
+    level_step_.poll_reload(messages);
+    if (head_) head_->poll_reload(messages);
+    flow_.poll_reload(messages);
+}
+
+}  // namespace tarn

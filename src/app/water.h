@@ -1,0 +1,71 @@
+// How the world moves: the tier that steps it, what is awake, springs and drains. Owns these passes and the
+// head field, which exists only while the pressure tier runs in a world that can confine water.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/settings.h"
+#include "gl/texture.h"
+#include "gl/timers.h"
+#include "passes/activity.h"
+#include "passes/block_step.h"
+#include "passes/flow.h"
+#include "passes/head_field.h"
+#include "passes/level_step.h"
+#include "world/cells.h"
+#include "world/scene.h"
+
+namespace tarn {
+
+class Water {
+  public:
+    struct Inputs {
+        WaterTier tier;
+        int film_threshold;  // quanta
+        bool always_awake;   // nothing sleeps: for measurements
+        std::uint32_t tick;
+        std::uint32_t version;  // stamped on bricks whose cells change
+    };
+    struct Outputs {
+        gl::Texture& cells;          // R8UI
+        gl::Texture& brick_changed;  // R32UI
+    };
+
+    // All asleep; load() first.
+    explicit Water(const Scene& scene);
+
+    // All cells are new, or the tick counter was set: everything wakes.
+    void load(const Cells& cells, std::uint32_t tick);
+    void wake_all(std::uint32_t tick) { activity_.wake_all(tick); }
+    // An edit before `tick` changed cells of these bricks; `before` and `after` are bytes of one box.
+    void edited(const std::vector<std::uint32_t>& bricks, const std::vector<std::uint8_t>& before,
+                const std::vector<std::uint8_t>& after, std::uint32_t tick);
+
+    void tick(const Inputs& in, const Outputs& out, gl::Timers& timers);
+
+    bool flows() const { return !springs_.empty() || !drains_.empty(); }
+    const FlowPass& flow() const { return flow_; }
+    std::uint32_t active_bricks() const { return activity_.active_bricks(); }
+    bool has_head_field() const { return head_.has_value(); }
+    void poll_reload(std::vector<std::string>& messages);
+
+  private:
+    void step(const Inputs& in, const Outputs& out);
+
+    std::uint32_t seed_;
+    glm::ivec3 size_vox_;
+    std::vector<Spring> springs_;
+    std::vector<Drain> drains_;
+    ActivityPass activity_;
+    BlockStepPass block_step_;
+    LevelStepPass level_step_;
+    std::optional<HeadFieldPass> head_;
+    FlowPass flow_;
+    bool may_hold_water_ = false;
+    bool may_confine_ = false;  // a solid may lie over a cell that water can reach
+    std::optional<Inputs> last_;
+};
+
+}  // namespace tarn

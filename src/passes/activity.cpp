@@ -1,0 +1,152 @@
+#include "passes/activity.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#include "core/error.h"
+#include "passes/bricks.h"
+#include "shared/bindings.h"
+#include "shared/water.h"
+
+namespace tarn {
+
+namespace {
+
+constexpr std::size_t word = sizeof(std::uint32_t);
+constexpr std::size_t header_words = 4;  // WorkHeader of glsl/lib/work_list.glsl
+constexpr std::array<std::uint32_t, header_words> empty_list{0, 0, 1, 0};
+
+std::size_t volume(glm::ivec3 size) {
+    return std::size_t{1} * size.x * size.y * size.z;
+}
+
+gl::Buffer work_list(const char* label, std::size_t items) {
+    gl::Buffer list(label, (header_words + items) * word);
+    list.upload(empty_list);
+    return list;
+}
+
+void barrier() {
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT |
+                    GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+}
+
+void dispatch_indirect(const gl::Program& program, const gl::Buffer& arguments) {
+    program.use();
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, arguments.name());
+    glDispatchComputeIndirect(0);
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
+    barrier();
+}
+
+}  // namespace
+
+ActivityPass::ActivityPass(glm::ivec3 size_vox)
+    : size_vox_(size_vox),
+      size_bricks_(bricks_of(size_vox)),
+      wake_({.label = "wake", .compute = "pass/activity_wake.comp"}),
+      touch_({.label = "touch", .compute = "pass/activity_touch.comp"}),
+      changed_tick_("changed tick", volume(size_bricks_) * word),
+      lists_{work_list("active bricks a", volume(size_bricks_)),
+             work_list("active bricks b", volume(size_bricks_))} {}
+
+void ActivityPass::wake_all(std::uint32_t tick) {
+    const std::size_t bricks = volume(size_bricks_);
+    changed_tick_.upload(std::vector<std::uint32_t>(bricks, tick - 1));
+    const auto count = static_cast<std::uint32_t>(bricks);
+    const std::uint32_t groups = (count + ACTIVE_PER_GROUP - 1) / ACTIVE_PER_GROUP;
+    constexpr std::uint32_t groups_per_row = 32768;  // WORK_GROUPS_PER_ROW
+    std::vector<std::uint32_t> list{std::min(groups, groups_per_row),
+                                    (groups + groups_per_row - 1) / groups_per_row, 1, count};
+    list.resize(header_words + bricks);
+    std::iota(list.begin() + header_words, list.end(), 0u);
+    lists_[next_].upload(list);
+}
+
+void ActivityPass::touch(const std::vector<std::uint32_t>& bricks, std::uint32_t tick) {
+    if (bricks.empty()) return;
+    gl::Buffer touched("touched bricks", bricks.size() * word);
+    touched.upload(bricks);
+    touched.bind_storage(STORAGE_ACTIVE);
+    changed_tick_.bind_storage(STORAGE_CHANGED_TICK);
+    next().bind_storage(STORAGE_ACTIVE_NEXT);
+    touch_.set("tick", tick - 1);
+    touch_.set("count", static_cast<std::uint32_t>(bricks.size()));
+    constexpr std::size_t row = 1024;
+    const std::size_t groups = (bricks.size() + ACTIVE_PER_GROUP - 1) / ACTIVE_PER_GROUP;
+    touch_.dispatch({std::min(groups, row), (groups + row - 1) / row, 1});
+    barrier();
+}
+
+void ActivityPass::make_room_for(std::span<const BlockGrid> grids) {
+    std::size_t marks = 0;
+    bool grown = false;
+    for (std::size_t i = 0; i < grids.size(); ++i) {
+        // For every offset.
+        const BlockGrid widest{grids[i].block_vox, grids[i].block_vox - 1};
+        const std::size_t blocks = volume(widest.count(size_vox_));
+        marks += blocks;
+        if (blocks <= blocks_capacity_[i]) continue;
+        blocks_[i] = work_list("blocks", blocks);
+        blocks_capacity_[i] = blocks;
+        grown = true;
+    }
+    if (grown) block_marks_ = gl::Buffer("block marks", (blocks_capacity_[0] + blocks_capacity_[1]) * word);
+    CHECK(block_marks_.bytes() >= marks * word);
+}
+
+void ActivityPass::begin_tick(std::uint32_t tick, std::span<const BlockGrid> grids) {
+    CHECK(!grids.empty() && grids.size() <= grids_max);
+    make_room_for(grids);
+    const gl::Buffer& active = next();
+    next_ = 1 - next_;
+    lists_[next_].upload(empty_list);
+    for (std::size_t i = 0; i < grids.size(); ++i) blocks_[i].upload(empty_list);
+    block_marks_.clear();
+
+    constexpr const char* block_names[] = {"block_vox[0]", "block_vox[1]"};
+    constexpr const char* offset_names[] = {"offset_vox[0]", "offset_vox[1]"};
+    constexpr const char* count_names[] = {"count_blocks[0]", "count_blocks[1]"};
+    for (std::size_t i = 0; i < grids.size(); ++i) {
+        wake_.set(block_names[i], grids[i].block_vox);
+        wake_.set(offset_names[i], grids[i].offset_vox);
+        wake_.set(count_names[i], grids[i].count(size_vox_));
+        blocks_[i].bind_storage(i == 0 ? STORAGE_BLOCKS : STORAGE_BLOCKS_WIDE);
+    }
+    wake_.set("size_vox", size_vox_);
+    wake_.set("size_bricks", size_bricks_);
+    wake_.set("grids", static_cast<int>(grids.size()));
+    wake_.set("tick", tick);
+    active.bind_storage(STORAGE_ACTIVE);
+    next().bind_storage(STORAGE_ACTIVE_NEXT);
+    changed_tick_.bind_storage(STORAGE_CHANGED_TICK);
+    block_marks_.bind_storage(STORAGE_BLOCK_MARKS);
+    dispatch_indirect(wake_, active);
+}
+
+void ActivityPass::bind(const gl::Program& program, std::uint32_t tick) const {
+    program.set("size_bricks", size_bricks_);
+    program.set("tick", tick);
+    changed_tick_.bind_storage(STORAGE_CHANGED_TICK);
+    next().bind_storage(STORAGE_ACTIVE_NEXT);
+}
+
+void ActivityPass::run_blocks(const gl::Program& program, int grid, std::uint32_t tick) const {
+    bind(program, tick);
+    blocks_[grid].bind_storage(STORAGE_BLOCKS);
+    dispatch_indirect(program, blocks_[grid]);
+}
+
+std::uint32_t ActivityPass::active_bricks() const {
+    std::uint32_t count = 0;
+    next().download(std::span(&count, 1), (header_words - 1) * word);
+    return count;
+}
+
+void ActivityPass::poll_reload(std::vector<std::string>& messages) {
+    for (gl::Program* program : {&wake_, &touch_})
+        if (auto message = program->poll_reload()) messages.push_back(*message);
+}
+
+}  // namespace tarn

@@ -1,0 +1,63 @@
+// Which parts of the world are awake, kept on the GPU: a list of bricks with a change in the last SLEEP_TICKS
+// ticks, and for each tick the lists of blocks that touch one of them or a neighbour
+// (glsl/pass/activity_*.comp, glsl/lib/activity.glsl). Owns these buffers and its programs; knows no rule of
+// the water.
+#pragma once
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gl/buffer.h"
+#include "gl/program.h"
+
+namespace tarn {
+
+// Blocks of a tick: block k along an axis begins at k * block - offset.
+struct BlockGrid {
+    glm::ivec3 block_vox{1}, offset_vox{0};
+
+    glm::ivec3 count(glm::ivec3 size_vox) const {
+        return (size_vox + offset_vox + block_vox - 1) / block_vox;
+    }
+};
+
+class ActivityPass {
+  public:
+    static constexpr int grids_max = 2;
+
+    // All asleep; wake_all() before the first tick.
+    explicit ActivityPass(glm::ivec3 size_vox);
+
+    // As if every brick, or those listed (x fastest, then y, then z), had changed in the tick before `tick`.
+    void wake_all(std::uint32_t tick);
+    void touch(const std::vector<std::uint32_t>& bricks, std::uint32_t tick);
+
+    // Finds what runs in `tick`; at most grids_max grids.
+    void begin_tick(std::uint32_t tick, std::span<const BlockGrid> grids);
+
+    // For a program with lib/activity.glsl whose changes belong to `tick`: its uniforms and buffers of these.
+    void bind(const gl::Program& program, std::uint32_t tick) const;
+    // As bind(); one workgroup for each block of a grid that runs in this tick.
+    void run_blocks(const gl::Program& program, int grid, std::uint32_t tick) const;
+
+    // Bricks that changed in the last SLEEP_TICKS ticks. Waits for the GPU.
+    std::uint32_t active_bricks() const;
+    void poll_reload(std::vector<std::string>& messages);
+
+  private:
+    const gl::Buffer& next() const { return lists_[next_]; }
+    void reset_lists();
+    void make_room_for(std::span<const BlockGrid> grids);
+
+    glm::ivec3 size_vox_, size_bricks_;
+    gl::Program wake_, touch_;
+    gl::Buffer changed_tick_;
+    gl::Buffer lists_[2];  // of active bricks: read in this tick, and made for the next
+    int next_ = 0;
+    gl::Buffer blocks_[grids_max], block_marks_;
+    std::size_t blocks_capacity_[grids_max]{};
+};
+
+}  // namespace tarn

@@ -1,0 +1,58 @@
+#include "reference/simulation.h"
+
+#include "reference/water_block.h"
+#include "reference/water_level.h"
+
+namespace tarn::reference {
+
+Simulation::Simulation(const Scene& scene, std::uint64_t tick)
+    : cells_(scene.cells),
+      seed_(scene.seed),
+      springs_(scene.springs),
+      drains_(scene.drains),
+      tick_(tick),
+      activity_(cells_.size_vox()) {}
+
+void Simulation::step(int n, const Settings& settings) {
+    for (int i = 0; i < n; ++i) tick_once(settings);
+}
+
+void Simulation::write(glm::ivec3 cell, std::uint8_t byte) {
+    if (cells_.at(cell) == byte) return;
+    cells_.at(cell) = byte;
+    activity_.changed(cell);
+}
+
+template <typename Act>
+void Simulation::noting_changes(const Act& act) {
+    const Cells before = cells_;
+    act();
+    const glm::ivec3 size = cells_.size_vox();
+    for (int z = 0; z < size.z; ++z)
+        for (int y = 0; y < size.y; ++y)
+            for (int x = 0; x < size.x; ++x)
+                if (cells_.at({x, y, z}) != before.at({x, y, z})) activity_.changed({x, y, z});
+}
+
+void Simulation::tick_once(const Settings& settings) {
+    const auto tick = static_cast<std::uint32_t>(tick_);
+    const bool other_rule =
+        tier_ && (*tier_ != settings.water_tier || film_threshold_ != settings.film_threshold);
+    if (other_rule) activity_.wake_all();
+    tier_ = settings.water_tier;
+    film_threshold_ = settings.film_threshold;
+    if (*tier_ != WaterTier::Pressure) field_.reset();
+    if (*tier_ == WaterTier::Pressure && !field_) field_.emplace(cells_.size_vox());
+
+    activity_.begin_tick();
+    if (field_ && activity_.any_awake()) field_->tick(cells_, activity_, film_threshold_);
+    if (!springs_.empty()) noting_changes([&] { springs_tick(cells_, springs_, seed_, tick, flow_); });
+    if (*tier_ == WaterTier::Block)
+        water_block_tick(cells_, seed_, tick, film_threshold_, activity_);
+    else
+        water_level_tick(cells_, seed_, tick, film_threshold_, activity_, field_ ? &*field_ : nullptr);
+    if (!drains_.empty()) noting_changes([&] { drains_tick(cells_, drains_, flow_); });
+    ++tick_;
+}
+
+}  // namespace tarn::reference
