@@ -16,6 +16,8 @@ namespace {
 constexpr double never = std::numeric_limits<double>::infinity();
 // Ticks left out of the mean time: shaders compile and caches fill in them.
 constexpr int warm_up_ticks = 8;
+// Stepped on after rest is found, so that what sleeps by then is asleep when the active bricks are counted.
+constexpr int ticks_after_rest = 4;
 
 double tick_or_never(std::optional<int> tick) {
     return tick ? static_cast<double>(*tick) : never;
@@ -44,10 +46,14 @@ class Run {
         const int quiet = quiet_ticks(options_.stepper.settings.water_tier);
         const int last = options_.ticks_limit > 0 ? std::min(options_.ticks_limit, scenario_.ticks_max)
                                                   : scenario_.ticks_max;
-        for (int tick = 0; tick < last && !settled_; ++tick) {
+        int end = last;
+        for (int tick = 0; tick < end; ++tick) {
             if (tick < tap_ticks) pour();
             step(tick);
-            if (unchanged_.ticks() >= quiet && tick > tap_ticks) settled_ = unchanged_.since();
+            if (!settled_ && unchanged_.ticks() >= quiet && tick > tap_ticks) {
+                settled_ = unchanged_.since();
+                end = std::min(last, tick + 1 + ticks_after_rest);
+            }
             if (options_.progress) options_.progress(ticks_);
         }
     }
