@@ -78,26 +78,33 @@ void find_supports(int column, int world_y) {
     }
 }
 
-void level_axes(int lowest, bool along_x, int lane, uint chance) {
-    int i = lane % TALL_SIDE;
-    int y = lane / TALL_SIDE;
-    if (y < lowest || y >= TALL_HEIGHT) return;
-    Line line = Line(along_x ? index_of(0, y, i) : index_of(i, y, 0), along_x ? 1 : TALL_SIDE, TALL_SIDE, 0, 0);
-    level_line(line, LineRule(film_threshold, 0, 1), line_chance(chance, along_x ? 0 : 1, y, i));
+// Where a diagonal step from a cell of this column passes between two closed cells. `step_x`: 1 or -1; z grows.
+void find_cuts(ivec3 local, int step_x) {
+    int x = local.x + step_x;
+    bool within = x >= 0 && x < TALL_SIDE && local.z + 1 < TALL_SIDE;
+    for (int y = 0; within && y < TALL_HEIGHT; ++y) {
+        int at = index_of(local.x, y, local.z);
+        int beside = content_in(grid[at + step_x]);
+        int behind = content_in(grid[at + TALL_SIDE]);
+        if (!is_open(beside) && !is_open(behind)) grid[at] |= CUT;
+    }
 }
 
-void level_diagonals(int lowest, bool rising, int lane, uint chance) {
-    const int lines = 2 * TALL_SIDE - 1;
-    int i = lane % lines;
-    int y = lane / lines;
-    if (y < lowest || y >= TALL_HEIGHT) return;
-    // Lines start on the side z = 0, then on the side where x does not change.
-    int along = min(i, TALL_SIDE - 1);
-    ivec2 start = ivec2(rising ? TALL_SIDE - 1 - along : along, max(0, i - TALL_SIDE + 1));
-    int step_x = rising ? 1 : -1;
+// Line `lane` of the block in one of four directions: 0 and 1 along x and z, 2 and 3 along the diagonals on which x
+// rises and falls with z. Count 0 where there is none.
+Line line_of(int lane, int direction, int lowest, out int y, out int number) {
+    int lines = direction < 2 ? TALL_SIDE : 2 * TALL_SIDE - 1;
+    number = lane % lines;
+    y = lane / lines;
+    bool none = y < lowest || y >= TALL_HEIGHT;
+    if (direction == 0) return Line(index_of(0, y, number), 1, none ? 0 : TALL_SIDE, 0);
+    if (direction == 1) return Line(index_of(number, y, 0), TALL_SIDE, none ? 0 : TALL_SIDE, 0);
+    // Diagonals start on the side z = 0, then on the side where x does not change.
+    bool rising = direction == 2;
+    int along = min(number, TALL_SIDE - 1);
+    ivec2 start = ivec2(rising ? TALL_SIDE - 1 - along : along, max(0, number - TALL_SIDE + 1));
     int count = min(rising ? TALL_SIDE - start.x : start.x + 1, TALL_SIDE - start.y);
-    Line line = Line(index_of(start.x, y, start.y), step_x + TALL_SIDE, count, step_x, TALL_SIDE);
-    level_line(line, LineRule(film_threshold, 0, 2), line_chance(chance, rising ? 2 : 3, y, i));
+    return Line(index_of(start.x, y, start.y), (rising ? 1 : -1) + TALL_SIDE, none ? 0 : count, 0);
 }
 
 #ifdef PRESSURE
@@ -214,10 +221,13 @@ void main() {
         for (int pass = 0; pass < 2; ++pass) {
             find_supports(column, corner.y);
             barrier();
-            if (diagonal)
-                level_diagonals(lowest, int(chance >> 29 & 1u) == pass, lane, chance);
-            else
-                level_axes(lowest, int(chance >> 30 & 1u) == pass, lane, chance);
+            int direction = diagonal ? (int(chance >> 29 & 1u) == pass ? 2 : 3)
+                                     : (int(chance >> 30 & 1u) == pass ? 0 : 1);
+            for (bool once = diagonal; once; once = false) find_cuts(local, direction == 2 ? 1 : -1);
+            barrier();
+            int y, number;
+            Line line = line_of(lane, direction, lowest, y, number);
+            level_line(line, LineRule(film_threshold, 0, diagonal ? 2 : 1), line_chance(chance, direction, y, number));
             barrier();
         }
 #ifdef PRESSURE

@@ -39,7 +39,7 @@ void main() {
     LineRule rule = LineRule(film_threshold, WIDE_LEAST_QUANTA, 1);
     for (int pass = 0; pass < 2; ++pass) {
         bool along_x = int(chance >> 30 & 1u) == pass;
-        Line line = Line(along_x ? lane * WIDE_SIDE : lane, along_x ? 1 : WIDE_SIDE, WIDE_SIDE, 0, 0);
+        Line line = Line(along_x ? lane * WIDE_SIDE : lane, along_x ? 1 : WIDE_SIDE, WIDE_SIDE, 0);
         level_line(line, rule, line_chance(chance, along_x ? 0 : 1, 1, lane));
         barrier();
     }
