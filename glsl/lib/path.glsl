@@ -1,12 +1,16 @@
 // The path tracer: one path from the eye, its light, and the first surface it meets. Options, so that what a scene
 // does not contain costs nothing: TRACE_CLEAR (water or glass), TRACE_ROUGH (some of it rough), TRACE_COATED (opaque
-// materials with an interface, metals), TRACE_SUN and TRACE_SKY (light sampling).
+// materials with an interface, metals), TRACE_SUN and TRACE_SKY (light sampling), TRACE_SMOOTH_WATER (water's levels
+// shaded as one surface; needs TRACE_CLEAR).
 #include "shared/frame.h"
 #include "shared/trace.h"
 #include "lib/bsdf.glsl"
 #include "lib/rng.glsl"
 #include "lib/sky.glsl"
 #include "lib/traversal.glsl"
+#ifdef TRACE_SMOOTH_WATER
+#include "lib/water_surface.glsl"
+#endif
 
 bool option(int bit) { return (frame.trace_options.w & bit) != 0; }
 
@@ -23,6 +27,9 @@ const float SIDE_FACE_PROBABILITY = 0.0625;
 
 // Interfaces that straight sunlight passes at most; a fall of water has some dozen.
 const int STRAIGHT_LEGS_MAX = 24;
+
+// Low steps of smooth water that a path passes at most; then they scatter as the faces they are.
+const int WATER_STEPS_PASSED_MAX = 64;
 
 struct FirstSurface {
     vec3 position_vox;  // of the first hit; far along the ray where there is none
@@ -65,7 +72,26 @@ struct Vertex {
     float side;
     vec3 wo;         // local
     Surface surface;
+#ifdef TRACE_SMOOTH_WATER
+    mat3 tilt;       // from the frame of the shading normal to that of the axis
+#endif
 };
+
+// Directions to the frame in which the vertex scatters, and back.
+vec3 vertex_local(Vertex v, vec3 dir) {
+#ifdef TRACE_SMOOTH_WATER
+    return to_local(dir, v.axis, v.side) * v.tilt;
+#else
+    return to_local(dir, v.axis, v.side);
+#endif
+}
+vec3 vertex_world(Vertex v, vec3 local) {
+#ifdef TRACE_SMOOTH_WATER
+    return from_local(v.tilt * local, v.axis, v.side);
+#else
+    return from_local(local, v.axis, v.side);
+#endif
+}
 
 void vertex_eval(Vertex v, vec3 wi, out vec3 f_cos, out float pdf) {
 #ifdef TRACE_ROUGH
@@ -103,7 +129,7 @@ vec3 sampled_sun(Vertex v, bool through_water) {
 #endif
     vec3 f_cos;
     float pdf;
-    vertex_eval(v, to_local(dir, v.axis, v.side), f_cos, pdf);
+    vertex_eval(v, vertex_local(v, dir), f_cos, pdf);
     if (in_air && frame.sun_irradiance.w > 0.0) weight *= power_heuristic(1.0 / frame.sun_irradiance.w, pdf);
     vec3 light = f_cos * weight;
     bool asked = (in_air || through_water) && max_component(light) > 0.0;
@@ -117,8 +143,17 @@ vec3 sampled_sun(Vertex v, bool through_water) {
     for (int leg = 0; leg < STRAIGHT_LEGS_MAX; ++leg) {
         RayHit hit = trace_ray(ray, dir, asked ? frame.trace_limits.x : -1.0);
         bool ends = hit.kind == HIT_NONE;
+        int hit_axis = hit.axis;
+#ifdef TRACE_SMOOTH_WATER
+        WaterFace water = water_face(ray.medium, dir, hit, hit_point(ray, dir, hit));
+        if (water.is_smooth && !water.met && ray.medium == MATERIAL_AIR) {
+            ray = water.start;
+            continue;
+        }
+        if (water.is_smooth) hit_axis = 1;
+#endif
         // From under water the one way on is out of the face that was aimed at.
-        bool leaves = through_water && leg == 0 && hit.beyond == MATERIAL_AIR && hit.axis == face &&
+        bool leaves = through_water && leg == 0 && hit.beyond == MATERIAL_AIR && hit_axis == face &&
                       component(dir, face) * component(to_sun, face) > 0.0;
         if (ends || !(leaves || (straight && transmits(hit.beyond)))) {
             seen = ends && (in_air || leg > 0);
@@ -128,7 +163,7 @@ vec3 sampled_sun(Vertex v, bool through_water) {
         RayStart beyond = RayStart(hit_point(ray, dir, hit), hit.cell, hit.beyond);
         if (straight) {
             float ior_beyond = ior_of(hit.beyond);
-            light *= 1.0 - fresnel_dielectric(abs(component(dir, hit.axis)), ior_beyond / ior_here);
+            light *= 1.0 - fresnel_dielectric(abs(component(dir, hit_axis)), ior_beyond / ior_here);
             ior_here = ior_beyond;
         } else {
             dir = to_sun;
@@ -153,7 +188,7 @@ vec3 sampled_sky(Vertex v) {
     float pdf;
     opaque_eval(v.surface, v.wo, wi, option(OPTION_UNIFORM_DIFFUSE), f_cos, pdf);
     float sky_pdf = wi.z * INV_PI;
-    vec3 dir = from_local(wi, v.axis, v.side);
+    vec3 dir = vertex_world(v, wi);
     vec3 light = sky_pdf > 0.0 ? f_cos * sky_radiance(dir) * (power_heuristic(sky_pdf, pdf) / sky_pdf) : vec3(0.0);
     bool asked = v.start.medium == MATERIAL_AIR && !v.surface.transmissive && max_component(light) > 0.0;
     RayHit hit = trace_ray(v.start, dir, asked ? frame.trace_limits.x : -1.0);
@@ -183,6 +218,9 @@ vec3 trace_path(vec3 eye_vox, vec3 dir, out FirstSurface first) {
     bool through_smooth_water = option(OPTION_SUN_THROUGH_WATER) && water_roughness * water_roughness < ALPHA_SMOOTH;
 #endif
 
+#ifdef TRACE_SMOOTH_WATER
+    int steps_passed = 0;
+#endif
     int diffuse_bounces = 0;
     for (int bounce = 0;; ++bounce) {
         RayHit hit = trace_ray(ray, dir, t_max);
@@ -203,6 +241,26 @@ vec3 trace_path(vec3 eye_vox, vec3 dir, out FirstSurface first) {
         v.axis = hit.axis;
         v.side = component(dir, hit.axis) > 0.0 ? -1.0 : 1.0;
         v.start = RayStart(hit_point(ray, dir, hit), hit.previous, ray.medium);
+#ifdef TRACE_SMOOTH_WATER
+        vec3 point = v.start.origin_vox;
+        WaterFace water = water_face(ray.medium, dir, hit, point);
+        if (water.is_smooth && !water.met && steps_passed < WATER_STEPS_PASSED_MAX) {
+            ++steps_passed;
+            --bounce;
+            t_entry += hit.t;
+            ray = water.start;
+            continue;
+        }
+        water.is_smooth = water.is_smooth && water.met;
+        v.tilt = mat3(1.0);
+        if (water.is_smooth) {
+            v.axis = 1;
+            v.side = dir.y < 0.0 ? 1.0 : -1.0;
+            v.start = water.start;
+            vec2 gradient = water_gradient(point, water.surface, water.level);
+            v.tilt = basis_around(to_local(water_normal(gradient, v.side, -dir), 1, v.side));
+        }
+#endif
         if (bounce == 0) {
             uint shown = hit.beyond == MATERIAL_AIR ? ray.medium : hit.beyond;
             first = FirstSurface(v.start.origin_vox, axis_vector(v.axis, v.side), t_entry + hit.t, shown);
@@ -210,7 +268,7 @@ vec3 trace_path(vec3 eye_vox, vec3 dir, out FirstSurface first) {
         Material beyond = materials[hit.beyond];
         light += limited(throughput * beyond.emission_metallic.rgb, bounce);
         if (bounce >= frame.trace_options.x) break;
-        v.wo = to_local(-dir, v.axis, v.side);
+        v.wo = vertex_local(v, -dir);
         v.surface = surface_of(beyond, hit.beyond, ray.medium, medium_ior);
         bool delta = v.surface.transmissive && is_smooth(v.surface);
         if (!delta && diffuse_bounces >= frame.trace_options.z) break;
@@ -247,7 +305,15 @@ vec3 trace_path(vec3 eye_vox, vec3 dir, out FirstSurface first) {
             absorption = beyond.absorption_ior.xyz * frame.trace_limits.y;
 #endif
         }
-        dir = normalize(from_local(next.wi, v.axis, v.side));
+        dir = normalize(vertex_world(v, next.wi));
+#ifdef TRACE_SMOOTH_WATER
+        if (transmitted) ray.origin_vox = point;
+        if (water.is_smooth && transmitted != (dir.y * v.side < 0.0)) {
+            // Through the surface as it is: a smooth one lays the ray on the right side, a rough one ends it.
+            dir.y = -dir.y;
+            if (next.pdf > 0.0) throughput = vec3(0.0);
+        }
+#endif
 #ifdef TRACE_SUN
         if (next.pdf > 0.0) {
             bool sampled = light_sampled && !transmitted;

@@ -152,6 +152,7 @@ TraceFeatures Renderer::Parts::features(const Simulation& simulation) const {
     features.skip = settings.traversal == Traversal::Distance;
     features.sun = settings.light_sampling != LightSampling::None && std::max({sun.x, sun.y, sun.z}) > 0;
     features.sky = settings.light_sampling == LightSampling::SunAndSky;
+    features.smooth_water = settings.smooth_water && may_contain(simulation, MATERIAL_WATER);
     return features;
 }
 

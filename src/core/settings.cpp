@@ -39,6 +39,7 @@ constexpr PresetRow presets[] = {{"max_bounces", {"8", "16", "24", "64", "1024"}
                                  {"sun_through_water", {"false", "true", "true", "true", "true"}},
                                  {"straight_sunlight", {"false", "true", "true", "true", "false"}},
                                  {"caustics", {"true", "false", "false", "false", "true"}},
+                                 {"smooth_water", {"false", "true", "true", "true", "false"}},
                                  {"roulette_after", {"1024", "1", "2", "4", "4"}},
                                  {"jitter", {"false", "false", "false", "false", "true"}},
                                  {"firefly_limit", {"0", "10", "20", "50", "0"}},

@@ -32,6 +32,10 @@
            "Diffuse directions: by their cosine, or uniform over the hemisphere (more noise).")              \
     BOOL(sun_through_water, true, LIGHT, IMAGE,                                                              \
          "Connect points under smooth water to the sun through the surface, in closed form.")                \
+    BOOL(                                                                                                    \
+        smooth_water, true, LIGHT, IMAGE,                                                                    \
+        "Shade neighbouring voxels that hold different amounts of water as one smooth surface; off: as the " \
+        "steps they are.")                                                                                   \
     BOOL(straight_sunlight, true, LIGHT, IMAGE,                                                              \
          "Let sunlight pass straight through water and glass to what lies in air behind: wrong in "          \
          "direction, but "                                                                                   \

@@ -12,12 +12,13 @@ namespace tarn {
 
 // What the program must be able to do; what is left out costs nothing. glsl/lib/path.glsl explains each.
 struct TraceFeatures {
-    bool skip = false;    // over empty bricks; otherwise voxel by voxel
-    bool clear = false;   // water or glass
-    bool rough = false;   // some of it rough
-    bool coated = false;  // opaque materials with an interface, metals
-    bool sun = false;     // sampled
-    bool sky = false;     // sampled
+    bool skip = false;          // over empty bricks; otherwise voxel by voxel
+    bool clear = false;         // water or glass
+    bool rough = false;         // some of it rough
+    bool coated = false;        // opaque materials with an interface, metals
+    bool sun = false;           // sampled
+    bool sky = false;           // sampled
+    bool smooth_water = false;  // levels of neighbouring voxels shaded as one surface; with clear
     auto operator<=>(const TraceFeatures&) const = default;
 };
 
