@@ -11,8 +11,9 @@
     REAL(ticks_per_second, 30, 1, 1000, SIMULATION, NONE, "Simulation ticks per second of play.")            \
     INT(ticks_per_frame, 0, 0, 1000, SIMULATION, NONE,                                                       \
         "Ticks before each frame; 0: by the clock in the window, none headless.")                            \
-    CHOICE(WaterTier, water_tier, Block, SIMULATION, NONE,                                                   \
-           "Rule of the water: block moves water in blocks of 2x2x2 (fast, slow to level).")                 \
+    CHOICE(WaterTier, water_tier, Level, SIMULATION, NONE,                                                   \
+           "Rule of the water: block (fastest, slow to level), level (finds its level and rests), pressure " \
+           "(also rises in communicating vessels).")                                                         \
     INT(film_threshold, 3, 1, 16, SIMULATION, NONE,                                                          \
         "Quanta (sixteenths of a voxel) of water per cell that stay as a film instead of spreading.")        \
     CHOICE(Quality, quality, Balanced, LIGHT, NONE, "Preset of the settings below, from fast to exact.")     \
