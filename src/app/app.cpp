@@ -257,6 +257,7 @@ void App::draw_overlays(const Input& input) {
                       .tick = simulation_->tick(),
                       .size_vox = simulation_->size_vox(),
                       .census = simulation_->recent_census(),
+                      .active_bricks = simulation_->recent_active_bricks(),
                       .samples = renderer_->samples(),
                       .rejected_samples = rejected_samples_,
                       .brush = tools_.brush});

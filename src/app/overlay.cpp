@@ -49,6 +49,7 @@ void draw_overlay(const OverlayInputs& in) {
         const std::uint64_t quanta = in.census.water_quanta;
         line("water {:.1f} in {} voxels", static_cast<double>(quanta) / QUANTA_PER_VOXEL,
              in.census.voxels[MATERIAL_WATER]);
+        line("active bricks {}", in.active_bricks);
         line("sand {}", in.census.voxels[MATERIAL_SAND]);
         line("samples {}", in.samples);
         if (in.rejected_samples > 0) line("rejected samples {}", in.rejected_samples);

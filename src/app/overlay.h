@@ -21,6 +21,7 @@ struct OverlayInputs {
     std::uint64_t tick;
     glm::ivec3 size_vox;
     const Census& census;
+    std::uint32_t active_bricks;
     std::uint64_t samples, rejected_samples;
     const Brush& brush;
 };

@@ -81,6 +81,7 @@ struct Simulation::Parts {
     std::uint64_t version = 0;
     EditTotals edit_totals;
     Census census;
+    std::uint32_t recent_active_bricks = 0;
     std::uint64_t census_version = 0;  // of `census`, or of the count under way
     double census_time_s = -1e300;
 };
@@ -260,12 +261,19 @@ const Census& Simulation::recent_census() const {
     return parts_->census;
 }
 
+std::uint32_t Simulation::recent_active_bricks() const {
+    return parts_->recent_active_bricks;
+}
+
 void Simulation::refresh_census(double now_s) {
     Parts& p = *parts_;
-    if (const auto arrived = p.census_pass.take()) p.census = *arrived;
+    if (const auto arrived = p.census_pass.take()) {
+        p.census = arrived->census;
+        p.recent_active_bricks = arrived->active_bricks;
+    }
     if (p.census_pass.pending() || p.census_version == p.version) return;
     if (now_s >= p.census_time_s && now_s - p.census_time_s < census_interval_s) return;
-    p.census_pass.record(p.cells, p.timers);
+    p.census_pass.record(p.cells, p.water.activity(), p.timers);
     p.census_version = p.version;
     p.census_time_s = now_s;
 }

@@ -46,6 +46,7 @@ class Simulation {
 
     // Counts of some frames ago, refreshed without waiting a few times a second of play (by `frame` calls).
     const Census& recent_census() const;
+    std::uint32_t recent_active_bricks() const;
     void refresh_census(double now_s);
 
     glm::ivec3 size_vox() const;

@@ -54,6 +54,7 @@ std::string stats_json(const StatsInputs& in) {
     stats["ticks"] = in.simulation.tick();
     stats["counts"] = counts_of(census);
     stats["water_quanta"] = census.water_quanta;
+    stats["active_bricks"] = in.simulation.active_bricks();
     for (const std::uint8_t id : named_materials())
         stats["material_ids"][std::string(material_name(id))] = id;
     stats["cells_hash"] = fmt::format("{:016x}", hash_of(cells));

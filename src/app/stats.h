@@ -19,9 +19,9 @@ struct StatsInputs {
     std::uint64_t samples = 0;           // per pixel of the picture, 0 without one
 };
 
-// Waits for the GPU. `counts` are voxels by material name, `water_quanta` sixteenths of a voxel, `cells_hash`
-// the FNV-1a hash of size and bytes; flow and edits are totals since the scene was loaded; all counts are
-// 64-bit.
+// Waits for the GPU. `counts` are voxels by material name, `water_quanta` sixteenths of a voxel,
+// `active_bricks` those of 4x4x4 voxels with a change in the last 64 ticks, `cells_hash` the FNV-1a hash of
+// size and bytes; flow and edits are totals since the scene was loaded; all counts are 64-bit.
 std::string stats_json(const StatsInputs& inputs);
 
 }  // namespace tarn

@@ -47,6 +47,7 @@ class Water {
 
     bool flows() const { return !springs_.empty() || !drains_.empty(); }
     const FlowPass& flow() const { return flow_; }
+    const ActivityPass& activity() const { return activity_; }
     std::uint32_t active_bricks() const { return activity_.active_bricks(); }
     bool has_head_field() const { return head_.has_value(); }
     void poll_reload(std::vector<std::string>& messages);

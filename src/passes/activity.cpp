@@ -144,6 +144,11 @@ std::uint32_t ActivityPass::active_bricks() const {
     return count;
 }
 
+void ActivityPass::copy_active_bricks(const gl::Buffer& to, std::size_t offset_bytes) const {
+    glCopyNamedBufferSubData(next().name(), to.name(), static_cast<GLintptr>((header_words - 1) * word),
+                             static_cast<GLintptr>(offset_bytes), word);
+}
+
 void ActivityPass::poll_reload(std::vector<std::string>& messages) {
     for (gl::Program* program : {&wake_, &touch_})
         if (auto message = program->poll_reload()) messages.push_back(*message);

@@ -44,6 +44,8 @@ class ActivityPass {
 
     // Bricks that changed in the last SLEEP_TICKS ticks. Waits for the GPU.
     std::uint32_t active_bricks() const;
+    // The same number into word `offset_bytes` of a buffer, without waiting.
+    void copy_active_bricks(const gl::Buffer& to, std::size_t offset_bytes) const;
     void poll_reload(std::vector<std::string>& messages);
 
   private:

@@ -1,5 +1,5 @@
-// Counts the cells of every byte on the GPU and hands the counts over frames later, without waiting
-// (glsl/pass/census.comp). Owns its program, its counters and the fence.
+// Counts the cells of every byte on the GPU and hands the counts over frames later, without waiting, together
+// with how many bricks are active (glsl/pass/census.comp). Owns its program, its counters and the fence.
 #pragma once
 #include <glad/gl.h>
 
@@ -10,6 +10,7 @@
 #include "gl/program.h"
 #include "gl/texture.h"
 #include "gl/timers.h"
+#include "passes/activity.h"
 #include "world/cells.h"
 
 namespace tarn {
@@ -22,10 +23,14 @@ class CensusPass {
     CensusPass& operator=(const CensusPass&) = delete;
 
     bool pending() const { return fence_ != nullptr; }
+    struct Counts {
+        Census census;
+        std::uint32_t active_bricks = 0;
+    };
     // Starts a count of `cells` (R8UI); none is pending.
-    void record(const gl::Texture& cells, gl::Timers& timers);
+    void record(const gl::Texture& cells, const ActivityPass& activity, gl::Timers& timers);
     // The counts once they have arrived; ends `pending`.
-    std::optional<Census> take();
+    std::optional<Counts> take();
     std::optional<std::string> poll_reload() { return program_.poll_reload(); }
 
   private:
