@@ -188,8 +188,10 @@ std::string svg_plot(std::span<const PlotPanel> panels, int columns, const std::
     }
     for (int i = 0; i < count; ++i) {
         const PlotPanel& panel = panels[i];
-        const double left = i % across * panel_width;
-        const double top = head_height + i / across * panel_height;
+        const int column = i % across;
+        const int row = i / across;
+        const double left = column * panel_width;
+        const double top = head_height + row * panel_height;
         const Scale x =
             scale_of(panel.x, panel.series, 0, left + margin_left, left + panel_width - margin_right);
         const Scale y =

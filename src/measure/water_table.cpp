@@ -113,7 +113,9 @@ void add_scaling(std::span<const WaterRun> runs, std::vector<WaterRow>& rows) {
             if (figure.name == "flat_from_tick")
                 (run.scenario == "dam" ? times.dam : times.bigdam)[run.seed] = figure.value;
     }
-    for (const auto& [tier, times] : tiers) {
+    for (const auto& entry : tiers) {
+        const std::string& tier = entry.first;
+        const Times& times = entry.second;
         WaterRow row{.tier = tier, .scenario = "bigdam", .figure = "flat_time_exponent"};
         for (const auto& [seed, large] : times.bigdam) {
             const auto small = times.dam.find(seed);

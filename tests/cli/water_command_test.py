@@ -38,14 +38,16 @@ class Water(Case):
         self.assertEqual(len(plot.getElementsByTagName("polyline")), 2)
 
     def test_the_reference_gives_the_same_figures(self):
-        self.succeed(*SHORT, "--out", "gpu")
-        self.succeed(*SHORT, "--out", "cpu", "--reference")
-        self.succeed(*SHORT, "--out", "awake", "--awake")
-        self.succeed(*SHORT, "--out", "other", "--set", "film_threshold=9")
+        run = ["water", "--scenario", "tap,blob", "--ticks", "30"]  # of every tier
+        self.succeed(*run, "--out", "gpu")
+        self.succeed(*run, "--out", "cpu", "--reference")
+        self.succeed(*run, "--out", "awake", "--awake")
+        self.succeed(*run, "--out", "other", "--set", "film_threshold=9")
 
         def figures(folder):
             return [row for row in self.rows(folder + "/water.csv")
                     if row["figure"] not in (COST, "active_bricks")]
+        self.assertEqual({row["tier"] for row in figures("gpu")}, {"block", "level", "pressure"})
         self.assertEqual(figures("gpu"), figures("cpu"))
         self.assertEqual(figures("gpu"), figures("awake"))
         self.assertNotEqual(figures("gpu"), figures("other"))

@@ -21,6 +21,7 @@ WaterRun run(const std::string& tier, const std::string& scenario, std::uint32_t
 std::vector<WaterRow> rows_of(const std::string& tier, const std::string& scenario, const std::string& figure,
                               const std::vector<double>& values) {
     std::vector<WaterRun> runs;
+    runs.reserve(values.size());
     std::uint32_t seed = 1;
     for (const double value : values) runs.push_back(run(tier, scenario, seed++, {{figure, value}}));
     return water_rows(runs);
