@@ -201,7 +201,7 @@ TEST(SceneErrors, UnknownScenesAndFilesAreNamed) {
         return "no error";
     };
     EXPECT_NE(message("atlantis").find("scene atlantis: no built-in scene"), std::string::npos);
-    EXPECT_NE(message("atlantis").find("lake, u-tube, waterfall"), std::string::npos);
+    EXPECT_NE(message("atlantis").find("lake, locks, u-tube, waterfall"), std::string::npos);
     EXPECT_NE(message("").find("no built-in scene"), std::string::npos);
     EXPECT_NE(message("no/such.json").find("no/such.json: cannot read"), std::string::npos);
     EXPECT_NE(message("nosuch.json").find("nosuch.json: cannot read"), std::string::npos);
