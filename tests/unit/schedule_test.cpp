@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <map>
 #include <numeric>
 #include <set>
 
@@ -10,8 +12,8 @@ namespace tarn {
 namespace {
 
 TEST(Schedule, each_run_uses_every_offset_once) {
-    for (const int side : {1, 2, 8, 16, 32})
-        for (const std::uint32_t first : {0u, 32u * 77, 0u - 32u})
+    for (const int side : {1, 2, 8, 16, 32, 64})
+        for (const std::uint32_t first : {0u, 64u * 77, 0u - 64u})
             for (int axis = 0; axis < 3; ++axis) {
                 std::set<int> seen;
                 for (int i = 0; i < side; ++i) {
@@ -21,6 +23,22 @@ TEST(Schedule, each_run_uses_every_offset_once) {
                 }
                 EXPECT_EQ(static_cast<int>(seen.size()), side);
             }
+}
+
+// A run of n ticks ends where 2^32 does, so that the next one, from tick 0, is whole too.
+TEST(Schedule, axes_of_unlike_sides_keep_their_own_runs) {
+    const glm::ivec3 sides(64, 2, 16);
+    for (const std::uint32_t first : {0u, 0u - 64u}) {
+        std::array<std::map<int, int>, 3> uses;
+        for (int i = 0; i < 64; ++i) {
+            const glm::ivec3 offset = block_offset_vox(9, first + i, sides);
+            for (int axis = 0; axis < 3; ++axis) ++uses[axis][offset[axis]];
+        }
+        for (int axis = 0; axis < 3; ++axis) {
+            EXPECT_EQ(static_cast<int>(uses[axis].size()), sides[axis]);
+            for (const auto& [offset, count] : uses[axis]) EXPECT_EQ(count, 64 / sides[axis]) << offset;
+        }
+    }
 }
 
 TEST(Schedule, axes_and_seeds_are_independent) {

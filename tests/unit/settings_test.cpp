@@ -88,7 +88,7 @@ TEST(Settings, DifferenceTellsWhatAChangeAsksFor) {
 TEST(Settings, JsonHoldsEverySetting) {
     const auto json = nlohmann::json::parse(settings_json(Settings{}));
     EXPECT_EQ(json.size(), setting_infos().size());
-    EXPECT_EQ(json["water_tier"], "block");
+    EXPECT_EQ(json["water_tier"], "level");
     EXPECT_EQ(json["max_bounces"], 24);
 }
 
