@@ -29,10 +29,12 @@ void append_active(uint brick) {
 }
 
 void mark_active(uint brick) {
-    if (changed_tick[brick] == tick) return;
-    uint before = atomicExchange(changed_tick[brick], tick);
-    // A brick that has been unchanged for longer is on no list.
-    if (tick - before > uint(SLEEP_TICKS)) append_active(brick);
+    // A loop that runs at most once: llvmpipe runs the body of a branch for lanes that do not take it.
+    for (bool unmarked = changed_tick[brick] != tick; unmarked; unmarked = false) {
+        uint before = atomicExchange(changed_tick[brick], tick);
+        // A brick that has been unchanged for longer is on no list.
+        for (bool asleep = tick - before > uint(SLEEP_TICKS); asleep; asleep = false) append_active(brick);
+    }
 }
 
 void mark_brick_active(ivec3 brick) {

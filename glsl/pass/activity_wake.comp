@@ -25,21 +25,25 @@ uniform ivec3 block_vox[2];
 uniform ivec3 offset_vox[2];
 uniform ivec3 count_blocks[2];
 
+// Loops that run at most once: llvmpipe runs the body of a branch, atomics and all, for lanes that do not take it.
 void mark_block(int grid, ivec3 block) {
     uint id = uint(block.x + count_blocks[grid].x * (block.y + count_blocks[grid].y * block.z));
     uint mark = id;
     if (grid == 1) mark += uint(count_blocks[0].x * count_blocks[0].y * count_blocks[0].z);
-    if (block_marks[mark] != 0u || atomicExchange(block_marks[mark], 1u) != 0u) return;
-    if (grid == 0) {
-        uint slot = atomicAdd(blocks.count, 1u);
-        block_ids[slot] = id;
-        atomicMax(blocks.groups_x, min(slot + 1u, WORK_GROUPS_PER_ROW));
-        if (slot % WORK_GROUPS_PER_ROW == 0u) atomicAdd(blocks.groups_y, 1u);
-    } else {
-        uint slot = atomicAdd(wide_blocks.count, 1u);
-        wide_block_ids[slot] = id;
-        atomicMax(wide_blocks.groups_x, min(slot + 1u, WORK_GROUPS_PER_ROW));
-        if (slot % WORK_GROUPS_PER_ROW == 0u) atomicAdd(wide_blocks.groups_y, 1u);
+    for (bool unmarked = block_marks[mark] == 0u; unmarked; unmarked = false) {
+        bool first = atomicExchange(block_marks[mark], 1u) == 0u;
+        for (bool tall = first && grid == 0; tall; tall = false) {
+            uint slot = atomicAdd(blocks.count, 1u);
+            block_ids[slot] = id;
+            atomicMax(blocks.groups_x, min(slot + 1u, WORK_GROUPS_PER_ROW));
+            if (slot % WORK_GROUPS_PER_ROW == 0u) atomicAdd(blocks.groups_y, 1u);
+        }
+        for (bool wide = first && grid == 1; wide; wide = false) {
+            uint slot = atomicAdd(wide_blocks.count, 1u);
+            wide_block_ids[slot] = id;
+            atomicMax(wide_blocks.groups_x, min(slot + 1u, WORK_GROUPS_PER_ROW));
+            if (slot % WORK_GROUPS_PER_ROW == 0u) atomicAdd(wide_blocks.groups_y, 1u);
+        }
     }
 }
 

@@ -5,7 +5,7 @@
 #include "shared/water.h"
 #include "lib/level_block.glsl"
 
-layout(local_size_x = TALL_SIDE, local_size_y = TALL_SIDE) in;
+layout(local_size_x = TALL_INVOCATIONS) in;
 
 uniform bool diagonal;  // lines of this tick
 
@@ -163,7 +163,6 @@ void press(int axis, int lane, ivec3 corner, uint chance) {
         return;
     }
     int y = lane / TALL_SIDE;
-    if (y >= TALL_HEIGHT) return;
     int j = lane % TALL_SIDE;
     int start = axis == 0 ? index_of(0, y, j) : index_of(j, y, 0);
     int stride = axis == 0 ? 1 : TALL_SIDE;
@@ -174,81 +173,91 @@ void press(int axis, int lane, ivec3 corner, uint chance) {
 }
 #endif
 
+ivec3 local_of(int column) { return ivec3(column % TALL_SIDE, 0, column / TALL_SIDE); }
+
 void main() {
     if (work_group() >= blocks.count) return;
     ivec3 block = block_of_group();
     ivec3 corner = block * ivec3(TALL_SIDE, TALL_HEIGHT, TALL_SIDE) - offset_vox;
     uint chance = block_chance(block);
     int lane = int(gl_LocalInvocationIndex);
-    ivec3 local = ivec3(gl_LocalInvocationID.x, 0, gl_LocalInvocationID.y);
-    int column = index_of(local.x, 0, local.z);
     if (lane == 0) matter = 0;
     barrier();
-    int before[TALL_HEIGHT];
     int found = 0;
-    for (int y = 0; y < TALL_HEIGHT; ++y) {
-        ivec3 cell = corner + local + ivec3(0, y, 0);
-        before[y] = load_content(cell);
-        grid[column + LAYER * y] = before[y];
-        if (before[y] > 0 && is_open(before[y])) found |= HAS_WATER;
-        if (before[y] == SAND) found |= HAS_SAND;
-    }
+    for (int column = lane; column < LAYER; column += TALL_INVOCATIONS)
+        for (int y = 0; y < TALL_HEIGHT; ++y) {
+            int content = load_content(corner + local_of(column) + ivec3(0, y, 0));
+            grid[column + LAYER * y] = content;
+            if (content > 0 && is_open(content)) found |= HAS_WATER;
+            if (content == SAND) found |= HAS_SAND;
+        }
     if (found != 0) atomicOr(matter, found);
     barrier();
     int moving = matter;
     if (moving == 0) return;
-#ifdef PRESSURE
-    uint head_before[TALL_HEIGHT];
-    for (int y = 0; y < TALL_HEIGHT; ++y) {
-        ivec3 cell = corner + local + ivec3(0, y, 0);
-        head_before[y] = inside_world(cell) ? imageLoad(acting_head, cell).r : 0u;
-        head[column + LAYER * y] = head_before[y];
-    }
-#endif
 
-    for (int fall_pass = 0; fall_pass < 2; ++fall_pass)
-        for (int y = 1; y < TALL_HEIGHT; ++y) fall(column + LAYER * y, corner.y + y, fall_pass == 0);
+    for (int column = lane; column < LAYER; column += TALL_INVOCATIONS) {
+#ifdef PRESSURE
+        for (int y = 0; y < TALL_HEIGHT; ++y) {
+            ivec3 cell = corner + local_of(column) + ivec3(0, y, 0);
+            head[column + LAYER * y] = inside_world(cell) ? imageLoad(acting_head, cell).r : 0u;
+        }
+#endif
+        for (int fall_pass = 0; fall_pass < 2; ++fall_pass)
+            for (int y = 1; y < TALL_HEIGHT; ++y) fall(column + LAYER * y, corner.y + y, fall_pass == 0);
+    }
     barrier();
     if ((moving & HAS_SAND) != 0) {
         uint sub = hash2(chance, 99u);
         ivec3 start = ivec3(sub & 1u, sub >> 1 & 1u, sub >> 2 & 1u);
-        ivec3 first = start + 2 * ivec3(lane % 8, lane / 8 % 4, lane / 32);
-        if (all(lessThan(first + 1, ivec3(TALL_SIDE, TALL_HEIGHT, TALL_SIDE)))) slide_sand(first, sub);
+        for (int i = lane; i < GRID_CELLS / 8; i += TALL_INVOCATIONS) {
+            ivec3 first = start + 2 * ivec3(i % 8, i / 8 % 4, i / 32);
+            if (all(lessThan(first + 1, ivec3(TALL_SIDE, TALL_HEIGHT, TALL_SIDE)))) slide_sand(first, sub);
+        }
         barrier();
     }
     if ((moving & HAS_WATER) != 0) {
         int lowest = corner.y == 0 ? 0 : 1;
+        LineRule rule = LineRule(film_threshold, 0, diagonal ? 2 : 1);
         for (int pass = 0; pass < 2; ++pass) {
-            find_supports(column, corner.y);
-            barrier();
             int direction = diagonal ? (int(chance >> 29 & 1u) == pass ? 2 : 3)
                                      : (int(chance >> 30 & 1u) == pass ? 0 : 1);
-            for (bool once = diagonal; once; once = false) find_cuts(local, direction == 2 ? 1 : -1);
+            for (int column = lane; column < LAYER; column += TALL_INVOCATIONS) find_supports(column, corner.y);
             barrier();
-            int y, number;
-            Line line = line_of(lane, direction, lowest, y, number);
-            level_line(line, LineRule(film_threshold, 0, diagonal ? 2 : 1), line_chance(chance, direction, y, number));
+            for (int column = diagonal ? lane : LAYER; column < LAYER; column += TALL_INVOCATIONS)
+                find_cuts(local_of(column), direction == 2 ? 1 : -1);
+            barrier();
+            int lines = (direction < 2 ? TALL_SIDE : 2 * TALL_SIDE - 1) * TALL_HEIGHT;
+            for (int i = lane; i < lines; i += TALL_INVOCATIONS) {
+                int y, number;
+                Line line = line_of(i, direction, lowest, y, number);
+                level_line(line, rule, line_chance(chance, direction, y, number));
+            }
             barrier();
         }
 #ifdef PRESSURE
         int first_axis = int(chance >> 5 & 0xffu) % 3;
         for (int pass = 0; pass < 3; ++pass) {
-            press((first_axis + pass) % 3, lane, corner, chance);
+            int axis = (first_axis + pass) % 3;
+            for (int i = lane; i < (axis == 1 ? LAYER : TALL_SIDE * TALL_HEIGHT); i += TALL_INVOCATIONS)
+                press(axis, i, corner, chance);
             barrier();
         }
 #endif
     }
 
-    for (int y = 0; y < TALL_HEIGHT; ++y) {
-        ivec3 cell = corner + local + ivec3(0, y, 0);
-        int content = content_in(grid[column + LAYER * y]);
-        if (content != before[y]) {
-            imageStore(cells, cell, uvec4(cell_of(content)));
-            mark_changed(cell);
-        }
+    for (int column = lane; column < LAYER; column += TALL_INVOCATIONS)
+        for (int y = 0; y < TALL_HEIGHT; ++y) {
+            ivec3 cell = corner + local_of(column) + ivec3(0, y, 0);
+            int at = column + LAYER * y;
+            int content = content_in(grid[at]);
+            if (content == CLOSED) continue;
+            if (content != content_of(imageLoad(cells, cell).r)) {
+                imageStore(cells, cell, uvec4(cell_of(content)));
+                mark_changed(cell);
+            }
 #ifdef PRESSURE
-        if (head[column + LAYER * y] != head_before[y])
-            imageStore(acting_head, cell, uvec4(head[column + LAYER * y]));
+            if (head[at] != imageLoad(acting_head, cell).r) imageStore(acting_head, cell, uvec4(head[at]));
 #endif
-    }
+        }
 }

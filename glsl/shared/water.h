@@ -19,6 +19,8 @@
 // Sides of workgroups: active bricks that one takes, and lines or cells along a side of one over the head field
 #define ACTIVE_PER_GROUP 64
 #define HEAD_GROUP_SIDE 8
+// Invocations of a tall block: each takes several columns and lines, as llvmpipe pays 0.4 us for every 8 of them
+#define TALL_INVOCATIONS 64
 
 // Quanta per cell that a wide block must find to level water over dry ground: lines this long along x and z would
 // spread thin films into crosses.
