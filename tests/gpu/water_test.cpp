@@ -7,6 +7,7 @@
 #include "gpu/gl_test.h"
 #include "gpu/worlds.h"
 #include "reference/simulation.h"
+#include "shared/water.h"
 
 namespace tarn {
 namespace {
@@ -132,6 +133,77 @@ TEST_F(WaterTest, same_seed_gives_the_same_bytes_and_another_does_not) {
     };
     EXPECT_EQ(run(1), run(1));
     EXPECT_NE(run(1), run(2));
+}
+
+TEST_F(WaterTest, equals_reference_in_worlds_of_one_row) {
+    for (const WaterTier tier : tiers)
+        for (const int n : {1, 2, 300})
+            for (const glm::ivec3 size : {glm::ivec3(1, n, 1), glm::ivec3(n, 1, 1), glm::ivec3(1, 1, n)})
+                for (const Soup soup : {Soup::Matter, Soup::Water}) {
+                    expect_equal_steps(tier, {.size_vox = size, .soup = soup, .seed = 2, .ticks = 100});
+                    if (HasFatalFailure()) return;
+                }
+}
+
+TEST_F(WaterTest, worlds_full_of_water_or_sand_stay_and_sleep) {
+    for (const WaterTier tier : tiers)
+        for (const std::uint8_t matter : {std::uint8_t{MATERIAL_WATER_FULL}, std::uint8_t{MATERIAL_SAND}})
+            for (const glm::ivec3 size :
+                 {glm::ivec3(40, 24, 33), glm::ivec3(1, 300, 1), glm::ivec3(1, 1, 300)}) {
+                SCOPED_TRACE(
+                    fmt::format("tier {}, matter {}, height {}", static_cast<int>(tier), matter, size.y));
+                Scene scene;
+                scene.cells = Cells(size);
+                for (std::uint8_t& byte : scene.cells.bytes()) byte = matter;
+                Settings settings;
+                settings.water_tier = tier;
+                gl::Timers timers;
+                Simulation simulation(scene, timers);
+                const std::uint32_t last_change = simulation.last_change();
+                simulation.step(SLEEP_TICKS, settings);
+                EXPECT_GT(simulation.active_bricks(), 0u);
+                simulation.step(1, settings);
+                EXPECT_EQ(simulation.active_bricks(), 0u);
+                EXPECT_TRUE(same_cells(simulation.read_cells(), scene.cells));
+                EXPECT_EQ(simulation.last_change(), last_change);
+            }
+}
+
+TEST_F(WaterTest, springs_beyond_all_bounds_and_drains_equal_the_reference) {
+    for (const WaterTier tier : tiers)
+        for (const std::uint32_t per_tick : {0x80000000u, 0xffffffffu})
+            for (const glm::ivec3 size : {glm::ivec3(21, 15, 18), glm::ivec3(1, 40, 1)}) {
+                SCOPED_TRACE(
+                    fmt::format("tier {}, per tick {}, height {}", static_cast<int>(tier), per_tick, size.y));
+                Scene scene;
+                scene.cells = make_soup(size, Soup::Layers, 6);
+                const glm::ivec3 most = size;
+                scene.springs = {
+                    {.region = {{0, size.y - 2, 0}, most}, .material = MATERIAL_WATER, .per_tick = per_tick},
+                    {.region = {{0, size.y / 2, 0}, {1, size.y / 2 + 1, 1}},
+                     .material = MATERIAL_SAND,
+                     .per_tick = per_tick}};
+                scene.drains = {{.region = {{0, 0, 0}, {size.x, 2, size.z}}}};
+                Settings settings;
+                settings.water_tier = tier;
+                gl::Timers timers;
+                Simulation simulation(scene, timers);
+                reference::Simulation reference(scene);
+                const Census start = take_census(scene.cells);
+                for (int round = 0; round < 10; ++round) {
+                    simulation.step(12, settings);
+                    reference.step(12, settings);
+                    const Cells cells = simulation.read_cells();
+                    ASSERT_TRUE(same_cells(cells, reference.cells())) << "tick " << simulation.tick();
+                    const FlowTotals flow = simulation.flow_totals();
+                    EXPECT_EQ(flow.sprung_water_quanta, reference.flow().sprung_water_quanta);
+                    EXPECT_EQ(flow.drained_sand_voxels, reference.flow().drained_sand_voxels);
+                    EXPECT_EQ(take_census(cells).water_quanta,
+                              start.water_quanta + flow.sprung_water_quanta - flow.drained_water_quanta);
+                }
+                EXPECT_GT(simulation.flow_totals().sprung_water_quanta, 0u);
+                EXPECT_GT(simulation.flow_totals().drained_water_quanta, 0u);
+            }
 }
 
 // What a player sees: a basin fills its holes, nothing hangs in the air, sand lies below water.
