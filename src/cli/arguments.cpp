@@ -67,6 +67,9 @@ void water_options(CLI::App* water, Arguments& arguments) {
         ->allow_extra_args(false);
     water->add_option("--out", arguments.out, "Folder for water.csv and water.svg; made where it is missing");
     water->add_flag("--reference", arguments.reference, "Step the serial CPU reference in place of the GPU");
+    water->add_flag(
+        "--speed", arguments.speed,
+        "Time the ticks of each tier instead: a burst dam, a still pool awake and asleep; minutes");
     water->add_flag("--awake", arguments.awake, "Step every brick always, those at rest too");
     std::string footer = "Scenarios:\n";
     for (const WaterScenario& scenario : water_scenarios())

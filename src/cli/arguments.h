@@ -26,7 +26,7 @@ struct Arguments {
     // Of `water`: comma-separated names; empty means all of them.
     std::string tiers, scenarios;
     int seeds = 1;
-    bool reference = false, awake = false;
+    bool reference = false, awake = false, speed = false;
 };
 
 // Nothing where help was asked for and printed. Throws Error naming the argument, the reason and what is

@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "gl/context.h"
+#include "measure/water_speed.h"
 #include "measure/water_table.h"
 #include "platform/platform.h"
 
@@ -73,12 +74,24 @@ int run_water_command(const Arguments& arguments) {
     for (const std::string& assignment : arguments.set) set_assignment(settings, assignment);
     if (!arguments.out.empty()) make_folder(arguments.out);
 
+    if (arguments.speed && arguments.reference) fail("--speed --reference: choose one; --speed times both");
     const std::unique_ptr<Platform> platform = arguments.reference ? nullptr : make_headless({1, 1}, 0);
     if (arguments.reference)
         fmt::print("stepped by the serial CPU reference\n\n");
     else
         fmt::print("stepped by {}\n\n", gl::driver_info().renderer);
     std::fflush(stdout);
+
+    if (arguments.speed) {
+        Progress progress("water: speed", 100);
+        const auto rows = measure_water_speed(tiers, {64, 128, 256}, 3, [&](double share) {
+            progress.show(static_cast<std::uint64_t>(100 * share));
+        });
+        fmt::print("{}", speed_text(rows));
+        if (!arguments.out.empty())
+            write_file(std::filesystem::path(arguments.out) / "water_speed.csv", speed_csv(rows));
+        return 0;
+    }
 
     const std::vector<WaterRun> runs = run_all(arguments, tiers, scenarios, settings);
     const std::vector<WaterRow> rows = water_rows(runs);
