@@ -61,11 +61,11 @@ TEST_F(WaterTest, equals_reference_for_odd_sizes_and_seeds) {
             for (const Soup soup : {Soup::AllBytes, Soup::Matter, Soup::Water, Soup::Layers}) {
                 const bool large = size.x > 32;
                 for (const std::uint32_t seed : {1u, 77u, 0xffffffffu}) {
-                    if (large && seed == 77u) continue;
+                    if (large && seed != 1u) continue;
                     expect_equal_steps(tier, {.size_vox = size,
                                               .soup = soup,
                                               .seed = seed,
-                                              .ticks = large ? 60 : 200,
+                                              .ticks = large ? 40 : 200,
                                               .ticks_between_looks = large ? 20 : 5});
                     if (HasFatalFailure()) return;
                 }
@@ -88,8 +88,8 @@ TEST_F(WaterTest, equals_reference_for_hundreds_of_ticks_of_a_large_world) {
                                   .soup = Soup::Layers,
                                   .seed = 5,
                                   .first_tick = 1000,
-                                  .ticks = 200,
-                                  .ticks_between_looks = 50});
+                                  .ticks = 100,
+                                  .ticks_between_looks = 25});
 }
 
 TEST_F(WaterTest, equals_reference_across_the_tick_counters_wrap) {
