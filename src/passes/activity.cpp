@@ -15,6 +15,12 @@ namespace {
 
 constexpr std::size_t word = sizeof(std::uint32_t);
 constexpr std::size_t header_words = 4;  // WorkHeader of glsl/lib/work_list.glsl
+struct GridUniforms {
+    const char *block, *offset, *count;
+};
+constexpr std::array<GridUniforms, ActivityPass::grids_max> grid_uniforms{
+    {{"block_vox[0]", "offset_vox[0]", "count_blocks[0]"},
+     {"block_vox[1]", "offset_vox[1]", "count_blocks[1]"}}};
 constexpr std::array<std::uint32_t, header_words> empty_list{0, 0, 1, 0};
 
 std::size_t volume(glm::ivec3 size) {
@@ -105,13 +111,11 @@ void ActivityPass::begin_tick(std::uint32_t tick, std::span<const BlockGrid> gri
     for (std::size_t i = 0; i < grids.size(); ++i) blocks_[i].upload(empty_list);
     block_marks_.clear();
 
-    constexpr const char* block_names[] = {"block_vox[0]", "block_vox[1]"};
-    constexpr const char* offset_names[] = {"offset_vox[0]", "offset_vox[1]"};
-    constexpr const char* count_names[] = {"count_blocks[0]", "count_blocks[1]"};
     for (std::size_t i = 0; i < grids.size(); ++i) {
-        wake_.set(block_names[i], grids[i].block_vox);
-        wake_.set(offset_names[i], grids[i].offset_vox);
-        wake_.set(count_names[i], grids[i].count(size_vox_));
+        const GridUniforms& names = grid_uniforms[i];
+        wake_.set(names.block, grids[i].block_vox);
+        wake_.set(names.offset, grids[i].offset_vox);
+        wake_.set(names.count, grids[i].count(size_vox_));
         blocks_[i].bind_storage(i == 0 ? STORAGE_BLOCKS : STORAGE_BLOCKS_WIDE);
     }
     wake_.set("size_vox", size_vox_);

@@ -19,9 +19,9 @@ const LevelStepPass::Programs& LevelStepPass::programs(bool pressure) {
     if (!wanted) {
         std::vector<std::pair<std::string, std::string>> defines;
         if (pressure) defines.emplace_back("PRESSURE", "1");
-        wanted.emplace(
+        wanted = Programs{
             gl::Program({.label = "level tall", .compute = "pass/level_tall.comp", .defines = defines}),
-            gl::Program({.label = "level wide", .compute = "pass/level_wide.comp", .defines = defines}));
+            gl::Program({.label = "level wide", .compute = "pass/level_wide.comp", .defines = defines})};
     }
     return *wanted;
 }
