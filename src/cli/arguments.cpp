@@ -70,6 +70,10 @@ void water_options(CLI::App* water, Arguments& arguments) {
     water->add_flag(
         "--speed", arguments.speed,
         "Time the ticks of each tier instead: a burst dam, a still pool awake and asleep; minutes");
+    water
+        ->add_option("--sides", arguments.sides_vox, "Sides of the worlds of --speed, in voxels (64,128,256)")
+        ->delimiter(',')
+        ->check(CLI::Range(16, 512));
     water->add_flag("--awake", arguments.awake, "Step every brick always, those at rest too");
     std::string footer = "Scenarios:\n";
     for (const WaterScenario& scenario : water_scenarios())

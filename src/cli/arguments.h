@@ -26,6 +26,7 @@ struct Arguments {
     // Of `water`: comma-separated names; empty means all of them.
     std::string tiers, scenarios;
     int seeds = 1;
+    std::vector<int> sides_vox{64, 128, 256};  // of --speed
     bool reference = false, awake = false, speed = false;
 };
 

@@ -84,7 +84,7 @@ int run_water_command(const Arguments& arguments) {
 
     if (arguments.speed) {
         Progress progress("water: speed", 100);
-        const auto rows = measure_water_speed(tiers, {64, 128, 256}, 3, [&](double share) {
+        const auto rows = measure_water_speed(tiers, arguments.sides_vox, 3, [&](double share) {
             progress.show(static_cast<std::uint64_t>(100 * share));
         });
         fmt::print("{}", speed_text(rows));
