@@ -1,7 +1,7 @@
 // The path tracer: one path from the eye, its light, and the first surface it meets. Options, so that what a scene
 // does not contain costs nothing: TRACE_CLEAR (water or glass), TRACE_ROUGH (some of it rough), TRACE_COATED (opaque
 // materials with an interface, metals), TRACE_SUN and TRACE_SKY (light sampling), TRACE_SMOOTH_WATER (water's levels
-// shaded as one surface; needs TRACE_CLEAR).
+// shaded as one surface; needs TRACE_CLEAR), TRACE_COUNT (bounces and steps, for views).
 #include "shared/frame.h"
 #include "shared/trace.h"
 #include "lib/bsdf.glsl"
@@ -10,6 +10,10 @@
 #include "lib/traversal.glsl"
 #ifdef TRACE_SMOOTH_WATER
 #include "lib/water_surface.glsl"
+#endif
+
+#ifdef TRACE_COUNT
+int path_bounces = 0;  // of the last path: scatterings after which it went on
 #endif
 
 bool option(int bit) { return (frame.trace_options.w & bit) != 0; }
@@ -224,6 +228,9 @@ vec3 trace_path(vec3 eye_vox, vec3 dir, out FirstSurface first) {
     int diffuse_bounces = 0;
     for (int bounce = 0;; ++bounce) {
         RayHit hit = trace_ray(ray, dir, t_max);
+#ifdef TRACE_COUNT
+        path_bounces = bounce;
+#endif
 #ifdef TRACE_CLEAR
         throughput *= exp(-absorption * hit.t);
 #endif

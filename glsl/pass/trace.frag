@@ -8,6 +8,9 @@ layout(location = 0) out vec4 out_radiance;  // rgb; a: 1
 layout(location = 1) out vec4 out_position;  // xyz: first hit (vox); w: distance from the eye
 layout(location = 2) out vec4 out_normal;    // xyz; 0 for sky
 layout(location = 3) out uint out_material;  // id; 255 for sky
+#ifdef TRACE_COUNT
+layout(location = 4) out vec2 out_counts;    // bounces and steps, means over the paths
+#endif
 
 layout(std430, binding = 0) buffer RejectedBlock { uint rejected_samples; };
 
@@ -15,6 +18,9 @@ void main() {
     uvec2 pixel = uvec2(gl_FragCoord.xy);
     vec3 sum = vec3(0.0);
     FirstSurface first;
+#ifdef TRACE_COUNT
+    out_counts = vec2(0.0);
+#endif
     uint count = frame.counters.z;
     for (uint i = 0u; i < count; ++i) {
         rng_seed(pixel, frame.counters.x, i, frame.counters.y);
@@ -26,6 +32,10 @@ void main() {
         FirstSurface surface;
         vec3 radiance = trace_path(frame.camera_position_vox.xyz, normalize(dir), surface);
         if (i == 0u) first = surface;
+#ifdef TRACE_COUNT
+        out_counts += vec2(path_bounces, steps_walked) / float(count);
+        path_bounces = steps_walked = 0;
+#endif
         if (is_finite(radiance))
             sum += radiance / float(count);
         else

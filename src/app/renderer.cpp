@@ -1,7 +1,6 @@
 #include "app/renderer.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -9,6 +8,8 @@
 #include "app/camera.h"
 #include "app/frame_block.h"
 #include "app/render_targets.h"
+#include "app/stopwatch.h"
+#include "app/views.h"
 #include "core/error.h"
 #include "gl/buffer.h"
 #include "gl/framebuffer.h"
@@ -39,16 +40,6 @@ gl::Texture make_albedo_texture() {
     return texture;
 }
 
-class Stopwatch {
-  public:
-    double ms() const {
-        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
-    }
-
-  private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
 }  // namespace
 
 struct Renderer::Parts {
@@ -67,17 +58,19 @@ struct Renderer::Parts {
     // A program is built when first used: a run pays for the passes it needs.
     double compile_ms = 0;
     std::map<TraceFeatures, TracePass> trace;
-    std::optional<TemporalPass> temporal[2];  // [blend]
-    std::optional<FilterPass> filter[2];      // [gaussian]
+    std::optional<TemporalPass> temporal[2][2];  // [blend][moments]
+    std::optional<FilterPass> filter[2];         // [gaussian]
     std::optional<AccumulatePass> accumulate;
     std::optional<DisplayPass> display[2];  // [radiance only]
     std::optional<PickPass> pick[2];        // [through water]
 
     std::optional<RenderTargets> targets;
+    Views views;
     FrameBlock block;   // of the last frame
     Settings settings;  // of the last frame
     int current = 0;    // which of the two sets the last frame wrote
     bool has_history = false;
+    bool has_moments = false;         // the last frame wrote some
     std::uint32_t world_change = 0;   // Simulation::last_change() seen by the last frame of exact mode
     std::uint64_t world_version = 0;  // seen by the last frame
     std::uint64_t frame_index = 0;
@@ -92,11 +85,11 @@ struct Renderer::Parts {
           metres_per_voxel(scene.metres_per_voxel),
           seed(scene.seed) {}
 
-    template <typename Pass, typename Argument>
-    Pass& built(std::optional<Pass>& pass, Argument argument) {
+    template <typename Pass, typename... Arguments>
+    Pass& built(std::optional<Pass>& pass, Arguments... arguments) {
         if (!pass) {
             const Stopwatch watch;
-            pass.emplace(argument);
+            pass.emplace(arguments...);
             compile_ms += watch.ms();
         }
         return *pass;
@@ -109,15 +102,6 @@ struct Renderer::Parts {
         compile_ms += watch.ms();
         return pass;
     }
-    AccumulatePass& accumulate_pass() {
-        if (!accumulate) {
-            const Stopwatch watch;
-            accumulate.emplace();
-            compile_ms += watch.ms();
-        }
-        return *accumulate;
-    }
-
     bool may_contain(const Simulation& simulation, std::size_t id) const;
     TraceFeatures features(const Simulation& simulation) const;
     void prepare_targets(const Settings& now, glm::ivec2 size_px);
@@ -128,6 +112,7 @@ struct Renderer::Parts {
     }
     const gl::Texture& accumulate_exact();
     const gl::Texture& reproject_and_filter(const Simulation& simulation);
+    void show(const gl::Framebuffer& target, bool raw);
 };
 
 // What the world held at its start, what was built since, and what springs make: more than is there now at
@@ -153,6 +138,7 @@ TraceFeatures Renderer::Parts::features(const Simulation& simulation) const {
     features.sun = settings.light_sampling != LightSampling::None && std::max({sun.x, sun.y, sun.z}) > 0;
     features.sky = settings.light_sampling == LightSampling::SunAndSky;
     features.smooth_water = settings.smooth_water && may_contain(simulation, MATERIAL_WATER);
+    features.count = counts_paths(settings.view);
     return features;
 }
 
@@ -162,7 +148,8 @@ void Renderer::Parts::prepare_targets(const Settings& now, glm::ivec2 size_px) {
     const bool exact = now.history == History::Exact;
     if (targets && targets->traced_px == traced && targets->shown_px == size_px && targets->exact == exact)
         return;
-    targets.reset();  // before the new ones take memory
+    views.drop_targets();  // before the new ones take memory
+    targets.reset();
     targets.emplace(traced, size_px, exact);
     has_history = false;
 }
@@ -205,25 +192,29 @@ void Renderer::Parts::upload_frame(const Simulation& simulation, const Settings&
 
 const gl::Texture& Renderer::Parts::accumulate_exact() {
     const Sums& previous = targets->sums[1 - current];
-    accumulate_pass().record({.radiance = targets->radiance,
-                              .previous_sum = previous.sum,
-                              .previous_correction = previous.correction,
-                              .rejected = rejected},
-                             {.sums = targets->sums_target[current]}, timers);
-    return targets->filtered[0];
+    built(accumulate)
+        .record({.radiance = targets->radiance,
+                 .previous_sum = previous.sum,
+                 .previous_correction = previous.correction,
+                 .previous_mean = targets->filtered[1 - current],
+                 .rejected = rejected},
+                {.sums = targets->sums_target[current]}, timers);
+    return targets->filtered[current];
 }
 
 const gl::Texture& Renderer::Parts::reproject_and_filter(const Simulation& simulation) {
     const gl::Texture* radiance = &targets->radiance;
     if (settings.history != History::None) {
         const bool blend = settings.history == History::Blend;
-        built(temporal[blend], blend)
+        const bool moments = settings.view == ViewKind::Variance;
+        built(temporal[blend][moments], blend, moments)
             .record({.current = surfaces(current, targets->radiance),
                      .previous = surfaces(1 - current, targets->frames[1 - current].history),
                      .brick_changed = simulation.brick_changed(),
                      .previous_version = static_cast<std::uint32_t>(world_version),
-                     .rejected = rejected},
-                    {.history = targets->history_target[current]}, timers);
+                     .rejected = rejected,
+                     .previous_moments = views.previous_moments(current)},
+                    {.history = views.history_target(*targets, current)}, timers);
         radiance = &targets->frames[current].history;
     }
     if (settings.filter == Filter::None) return *radiance;
@@ -241,6 +232,14 @@ const gl::Texture& Renderer::Parts::reproject_and_filter(const Simulation& simul
     return *radiance;
 }
 
+// The last frame: its radiance, or the view of it that is asked for.
+void Renderer::Parts::show(const gl::Framebuffer& target, bool raw) {
+    if (settings.view == ViewKind::Picture)
+        built(display[raw], raw).record({.radiance = *shown}, {.picture = target}, timers);
+    else
+        views.show(*targets, current, raw, target, timers);
+}
+
 Renderer::Renderer(const Scene& scene, gl::Timers& timers) : parts_(std::make_unique<Parts>(scene, timers)) {}
 
 Renderer::~Renderer() = default;
@@ -252,16 +251,16 @@ const gl::Texture& Renderer::render(const Simulation& simulation, const Settings
     p.upload_frame(simulation, settings);
     p.current = 1 - p.current;
 
+    p.views.prepare(settings, *p.targets, p.has_history);
     p.trace_pass(p.features(simulation))
         .record({.cells = simulation.cells(),
                  .brick_distance = simulation.brick_distance(),
                  .albedo_table = p.albedo,
                  .rejected = p.rejected},
-                {.target = p.targets->trace_target[p.current]}, p.timers);
+                {.target = p.views.trace_target(*p.targets, p.current)}, p.timers);
     p.shown =
         settings.history == History::Exact ? &p.accumulate_exact() : &p.reproject_and_filter(simulation);
-    p.built(p.display[0], false)
-        .record({.radiance = *p.shown}, {.picture = p.targets->picture_target}, p.timers);
+    p.show(p.targets->picture_target, false);
 
     p.has_history = true;
     p.world_version = simulation.version();
@@ -318,7 +317,8 @@ ImageRgb32f Renderer::read_radiance() const {
     const gl::Framebuffer target("shown radiance", {&resolved});
     p.frame_block.upload(std::span(&p.block, 1));
     p.frame_block.bind_uniform(BINDING_FRAME);
-    p.built(p.display[1], true).record({.radiance = *p.shown}, {.picture = target}, p.timers);
+    p.material_block.bind_uniform(BINDING_MATERIALS);
+    p.show(target, true);
     std::vector<float> pixels(std::size_t{3} * size.x * size.y);
     resolved.download(std::span(pixels), GL_RGB, GL_FLOAT);
     ImageRgb32f image{size.x, size.y, {}};
@@ -344,7 +344,7 @@ std::uint64_t Renderer::rejected_samples() const {
 }
 
 double Renderer::compile_ms() const {
-    return parts_->compile_ms;
+    return parts_->compile_ms + parts_->views.compile_ms();
 }
 
 std::vector<std::string> Renderer::poll_reload() {
@@ -359,8 +359,9 @@ std::vector<std::string> Renderer::poll_reload() {
         if (pass) poll_program(pass->program());
     };
     for (auto& [features, pass] : parts_->trace) poll_program(pass.program());
+    parts_->views.for_each_program(poll_program);
     for (int i = 0; i < 2; ++i) {
-        poll(parts_->temporal[i]);
+        for (auto& pass : parts_->temporal[i]) poll(pass);
         poll(parts_->filter[i]);
         poll(parts_->display[i]);
         poll(parts_->pick[i]);

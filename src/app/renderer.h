@@ -45,7 +45,9 @@ class Renderer {
 
     // Of the last render(); both wait for the GPU.
     ImageRgba8 read_picture() const;
-    ImageRgb32f read_radiance() const;  // before exposure and tone mapping, at the shown size
+    // Before exposure and tone mapping, at the shown size; of a view its raw values (settings_list.h), -1
+    // where there is none.
+    ImageRgb32f read_radiance() const;
 
     std::uint64_t samples() const;           // kept per pixel (exact: all; else of the youngest frame's cap)
     std::uint64_t rejected_samples() const;  // not finite, since the start

@@ -20,6 +20,8 @@ constexpr const char* diffuse_sampling_names[] = {"cosine", "uniform"};
 constexpr const char* history_names[] = {"none", "blend", "count", "exact"};
 constexpr const char* filter_names[] = {"none", "gaussian", "edge_aware"};
 constexpr const char* tone_map_names[] = {"filmic", "linear"};
+constexpr const char* view_kind_names[] = {"picture", "albedo", "normal",  "depth",   "material",
+                                           "bounces", "steps",  "history", "variance"};
 
 // What each quality sets: every one names the same keys, so that the last chosen counts alone. baseline is
 // the method of the 2023 course work (BRIEF): every voxel stepped through, uniform diffuse directions, no
@@ -138,6 +140,10 @@ std::span<const char* const> choice_names<Filter>() {
 template <>
 std::span<const char* const> choice_names<ToneMap>() {
     return tone_map_names;
+}
+template <>
+std::span<const char* const> choice_names<ViewKind>() {
+    return view_kind_names;
 }
 
 std::span<const SettingInfo> setting_infos() {

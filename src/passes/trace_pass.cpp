@@ -22,6 +22,7 @@ gl::ProgramDesc describe(const TraceFeatures& features) {
     define(features.sun, "TRACE_SUN");
     define(features.sky, "TRACE_SKY");
     define(features.smooth_water, "TRACE_SMOOTH_WATER");
+    define(features.count, "TRACE_COUNT");
     return desc;
 }
 

@@ -19,6 +19,7 @@ struct TraceFeatures {
     bool sun = false;           // sampled
     bool sky = false;           // sampled
     bool smooth_water = false;  // levels of neighbouring voxels shaded as one surface; with clear
+    bool count = false;         // bounces and steps, for views
     auto operator<=>(const TraceFeatures&) const = default;
 };
 
@@ -31,7 +32,7 @@ class TracePass {
         const gl::Buffer& rejected;  // one uint, counted up
     };
     struct Outputs {
-        const gl::Framebuffer& target;  // radiance, position, normal, material
+        const gl::Framebuffer& target;  // radiance, position, normal, material; with count: counts
     };
 
     explicit TracePass(const TraceFeatures& features);
