@@ -173,6 +173,24 @@ def build(game):
     game.photograph("3-hole")
 
 
+def look_at_views(game):
+    """V shows one view after another, Shift+V the one before."""
+    game.press("p")
+    seen = [game.photograph("3-picture")]
+    for view in ("albedo", "normal", "depth", "material", "bounces", "steps", "history", "variance"):
+        game.press("v")
+        check(game.state()["settings"]["view"] == view, f"V does not show {view}")
+        photo = game.photograph(f"3-{view}")
+        for other in seen[:1] + seen[-1:]:
+            check(differing_pixels(photo, other) > 3000, f"{view} looks like {other.stem}")
+        seen.append(photo)
+    game.press("shift+v")
+    check(game.state()["settings"]["view"] == "history", "Shift+V does not go back")
+    game.press("v", "v")
+    check(game.state()["settings"]["view"] == "picture", "V does not come round")
+    game.press("p")
+
+
 def open_panels(game):
     plain = game.photograph("4-plain")
     game.press("F1")
@@ -213,6 +231,7 @@ def main():
         try:
             fly_and_look(game)
             build(game)
+            look_at_views(game)
             open_panels(game)
             resize(game)
             last = game.quit()
