@@ -1,6 +1,7 @@
 // Exact mode: adds a frame to a sum over all frames, with the rounding error carried along (Kahan-Babuska-Neumaier):
 // a plain float32 running mean drifts by 1 % in a million frames.
 #include "shared/frame.h"
+#include "shared/trace.h"
 #include "lib/math.glsl"
 
 layout(binding = 0) uniform sampler2D radiance;
@@ -24,19 +25,26 @@ void main() {
     vec4 sum = first ? vec4(0.0) : texelFetch(previous_sum, at, 0);
     vec4 correction = first ? vec4(0.0) : texelFetch(previous_correction, at, 0);
     vec4 before = first ? vec4(0.0) : texelFetch(previous_mean, at, 0);
-    uint missing = is_finite(before.a) ? uint(before.a) : frame.counters.w;
+    uint missing = is_finite(before.a) ? uint(before.a) : 0u;
+    // Counted in integers: a float stops at 2^24, the counter at FRAMES_KEPT_MAX, where the mean stays as it is.
+    uint kept = frame.counters.w - missing;
+    uint taken = frame.counters.w < FRAMES_KEPT_MAX ? 1u : 0u;
     if (!is_finite(sum) || !is_finite(correction) || !is_finite(before)) {
         atomicAdd(rejected_samples, 1u);
         sum = vec4(0.0);
         correction = vec4(0.0);
         before = vec4(0.0);
-        missing = frame.counters.w;
+        // As many as a float holds; this frame stands for the few that remain.
+        int lost_bits = max(0, findMSB(frame.counters.w) - 23);
+        missing = (frame.counters.w >> lost_bits) << lost_bits;
+        taken = frame.counters.w - missing + 1u;
+        kept = 0u;
     }
-    // Counted in integers: a float stops at 2^24.
-    float count = float(frame.counters.w + 1u - missing);
+    float count = float(kept + taken);
     // Welford 1962.
     float deviation = luminance(radiance_now) - luminance(before.rgb);
-    vec4 value = vec4(radiance_now, min(deviation * deviation * (1.0 - 1.0 / count), DEVIATION_MAX));
+    float deviations = min(deviation * deviation, DEVIATION_MAX) * (float(kept) / count);
+    vec4 value = float(taken) * vec4(radiance_now, deviations);
     precise vec4 total = sum + value;
     precise vec4 from_sum = (sum - total) + value;
     precise vec4 from_value = (value - total) + sum;

@@ -174,15 +174,14 @@ void Renderer::Parts::upload_frame(const Simulation& simulation, const Settings&
     const auto entries = make_material_block(materials);
     material_block.upload(entries);
     const FrameBlock before = block;
-    block = make_frame_block(
-        {.settings = now,
-         .world_size_vox = simulation.size_vox(),
-         .metres_per_voxel = metres_per_voxel,
-         .seed = seed,
-         .frame_index = static_cast<std::uint32_t>(frame_index),
-         .frames_kept = static_cast<std::uint32_t>(std::min<std::uint64_t>(frames_kept, ~0u)),
-         .traced_px = targets->traced_px,
-         .shown_px = targets->shown_px});
+    block = make_frame_block({.settings = now,
+                              .world_size_vox = simulation.size_vox(),
+                              .metres_per_voxel = metres_per_voxel,
+                              .seed = seed,
+                              .frame_index = static_cast<std::uint32_t>(frame_index),
+                              .frames_kept = static_cast<std::uint32_t>(frames_kept),
+                              .traced_px = targets->traced_px,
+                              .shown_px = targets->shown_px});
     if (has_history) set_previous_eye(block, before);
     block.world_size_vox.w = has_history ? 1 : 0;
     frame_block.upload(std::span(&block, 1));
@@ -265,12 +264,16 @@ const gl::Texture& Renderer::render(const Simulation& simulation, const Settings
     p.has_history = true;
     p.world_version = simulation.version();
     ++p.frame_index;
-    ++p.frames_kept;
+    p.frames_kept = std::min<std::uint64_t>(p.frames_kept + 1, FRAMES_KEPT_MAX);
     return p.targets->picture;
 }
 
 void Renderer::reset_history() {
     parts_->has_history = false;
+}
+
+void Renderer::set_frame_index(std::uint64_t index) {
+    parts_->frame_index = index;
 }
 
 Pick Renderer::pick(const Simulation& simulation, const Settings& settings, glm::ivec2 size_px,

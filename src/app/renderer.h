@@ -38,6 +38,9 @@ class Renderer {
     // History starts anew with the next frame.
     void reset_history();
 
+    // Of the next frame: its random numbers follow from it. For tests of counter wrap.
+    void set_frame_index(std::uint64_t index);
+
     // What lies under the pixel `at_px` (from the top left) of a picture of `size_px`. Waits for the GPU.
     // `through_water`: water is passed as if it were air, also by an eye within it.
     Pick pick(const Simulation& simulation, const Settings& settings, glm::ivec2 size_px, glm::vec2 at_px,
