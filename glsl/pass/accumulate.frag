@@ -1,5 +1,5 @@
-// Exact mode: adds a frame to a sum over all frames, with the rounding error carried along (Kahan-Babuska-Neumaier):
-// a plain float32 running mean drifts by 1 % in a million frames.
+// Exact mode: adds a frame to a sum over all frames, which is two float32 (Dekker 1971): a plain float32 running mean
+// drifts by 1 % in a million frames.
 #include "shared/frame.h"
 #include "shared/trace.h"
 #include "lib/math.glsl"
@@ -48,8 +48,11 @@ void main() {
     precise vec4 total = sum + value;
     precise vec4 from_sum = (sum - total) + value;
     precise vec4 from_value = (value - total) + sum;
-    correction += mix(from_value, from_sum, greaterThanEqual(abs(sum), abs(value)));
-    out_sum = total;
-    out_correction = correction;
-    out_mean = vec4((total.rgb + correction.rgb) / count, float(missing));
+    precise vec4 rest = correction + mix(from_value, from_sum, greaterThanEqual(abs(sum), abs(value)));
+    // The rest is kept below the sum's last place: left to grow, it loses digits of its own in a million frames.
+    precise vec4 high = total + rest;
+    precise vec4 low = rest - (high - total);
+    out_sum = high;
+    out_correction = low;
+    out_mean = vec4((high.rgb + low.rgb) / count, float(missing));
 }
