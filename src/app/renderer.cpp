@@ -13,7 +13,9 @@
 #include "gl/buffer.h"
 #include "gl/framebuffer.h"
 #include "passes/accumulate_pass.h"
+#include "passes/bricks.h"
 #include "passes/display_pass.h"
+#include "passes/emitters.h"
 #include "passes/filter_pass.h"
 #include "passes/pick_pass.h"
 #include "passes/temporal_pass.h"
@@ -67,6 +69,7 @@ struct Renderer::Parts {
     // A program is built when first used: a run pays for the passes it needs.
     double compile_ms = 0;
     std::map<TraceFeatures, TracePass> trace;
+    std::optional<EmittersPass> emitters;
     std::optional<TemporalPass> temporal[2];  // [blend]
     std::optional<FilterPass> filter[2];      // [gaussian]
     std::optional<AccumulatePass> accumulate;
@@ -126,6 +129,7 @@ struct Renderer::Parts {
         const FrameTargets& frame = targets->frames[set];
         return {radiance, frame.position, frame.normal, frame.material};
     }
+    void update_emitters(const Simulation& simulation);
     const gl::Texture& accumulate_exact();
     const gl::Texture& reproject_and_filter(const Simulation& simulation);
 };
@@ -147,11 +151,14 @@ TraceFeatures Renderer::Parts::features(const Simulation& simulation) const {
         if (clear) features.rough |= m.roughness * m.roughness >= ALPHA_SMOOTH;
         if (!clear) features.coated |= m.ior != 1 || m.metallic > 0;
         features.clear |= clear;
+        const glm::vec3 shines = id == MATERIAL_WATER ? glm::vec3(0) : m.emission;  // as in lib/emitter_tree
+        features.emitters |= std::max({shines.x, shines.y, shines.z}) > 0;
     }
     const glm::vec3 sun = settings.sun_irradiance;
     features.skip = settings.traversal == Traversal::Distance;
     features.sun = settings.light_sampling != LightSampling::None && std::max({sun.x, sun.y, sun.z}) > 0;
-    features.sky = settings.light_sampling == LightSampling::SunAndSky;
+    features.sky = settings.light_sampling == LightSampling::All;
+    features.emitters &= settings.light_sampling != LightSampling::None;
     features.smooth_water = settings.smooth_water && may_contain(simulation, MATERIAL_WATER);
     return features;
 }
@@ -203,6 +210,18 @@ void Renderer::Parts::upload_frame(const Simulation& simulation, const Settings&
     material_block.bind_uniform(BINDING_MATERIALS);
 }
 
+void Renderer::Parts::update_emitters(const Simulation& simulation) {
+    if (!emitters) {
+        const Stopwatch watch;
+        emitters.emplace(bricks_of(simulation.size_vox()));
+        compile_ms += watch.ms();
+    }
+    emitters->record({.cells = simulation.cells(),
+                      .brick_changed = simulation.brick_changed(),
+                      .version = static_cast<std::uint32_t>(simulation.version())},
+                     timers);
+}
+
 const gl::Texture& Renderer::Parts::accumulate_exact() {
     const Sums& previous = targets->sums[1 - current];
     accumulate_pass().record({.radiance = targets->radiance,
@@ -252,12 +271,14 @@ const gl::Texture& Renderer::render(const Simulation& simulation, const Settings
     p.upload_frame(simulation, settings);
     p.current = 1 - p.current;
 
-    p.trace_pass(p.features(simulation))
-        .record({.cells = simulation.cells(),
-                 .brick_distance = simulation.brick_distance(),
-                 .albedo_table = p.albedo,
-                 .rejected = p.rejected},
-                {.target = p.targets->trace_target[p.current]}, p.timers);
+    const TraceFeatures features = p.features(simulation);
+    if (features.emitters) p.update_emitters(simulation);
+    p.trace_pass(features).record({.cells = simulation.cells(),
+                                   .brick_distance = simulation.brick_distance(),
+                                   .albedo_table = p.albedo,
+                                   .emitters = features.emitters ? &*p.emitters : nullptr,
+                                   .rejected = p.rejected},
+                                  {.target = p.targets->trace_target[p.current]}, p.timers);
     p.shown =
         settings.history == History::Exact ? &p.accumulate_exact() : &p.reproject_and_filter(simulation);
     p.built(p.display[0], false)
@@ -268,6 +289,11 @@ const gl::Texture& Renderer::render(const Simulation& simulation, const Settings
     ++p.frame_index;
     ++p.frames_kept;
     return p.targets->picture;
+}
+
+void Renderer::world_replaced() {
+    parts_->emitters.reset();
+    reset_history();
 }
 
 void Renderer::reset_history() {
@@ -366,6 +392,7 @@ std::vector<std::string> Renderer::poll_reload() {
         poll(parts_->pick[i]);
     }
     poll(parts_->accumulate);
+    if (parts_->emitters) parts_->emitters->poll_reload(messages);
     return messages;
 }
 

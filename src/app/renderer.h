@@ -37,6 +37,8 @@ class Renderer {
 
     // History starts anew with the next frame.
     void reset_history();
+    // Another simulation, of the same scene, comes with the next frame.
+    void world_replaced();
 
     // What lies under the pixel `at_px` (from the top left) of a picture of `size_px`. Waits for the GPU.
     // `through_water`: water is passed as if it were air, also by an eye within it.

@@ -15,7 +15,7 @@ namespace {
 constexpr const char* water_tier_names[] = {"block", "level", "pressure"};
 constexpr const char* quality_names[] = {"baseline", "fast", "balanced", "quality", "exact"};
 constexpr const char* traversal_names[] = {"voxel", "distance"};
-constexpr const char* light_sampling_names[] = {"none", "sun", "sun_and_sky"};
+constexpr const char* light_sampling_names[] = {"none", "lights", "all"};
 constexpr const char* diffuse_sampling_names[] = {"cosine", "uniform"};
 constexpr const char* history_names[] = {"none", "blend", "count", "exact"};
 constexpr const char* filter_names[] = {"none", "gaussian", "edge_aware"};
@@ -34,7 +34,7 @@ constexpr PresetRow presets[] = {{"max_bounces", {"8", "16", "24", "64", "1024"}
                                  {"samples_per_pixel", {"1", "1", "1", "2", "1"}},
                                  {"resolution_scale", {"1", "0.5", "1", "1", "1"}},
                                  {"traversal", {"voxel", "distance", "distance", "distance", "distance"}},
-                                 {"light_sampling", {"none", "sun", "sun", "sun", "sun"}},
+                                 {"light_sampling", {"none", "lights", "lights", "lights", "lights"}},
                                  {"diffuse_sampling", {"uniform", "cosine", "cosine", "cosine", "cosine"}},
                                  {"sun_through_water", {"false", "true", "true", "true", "true"}},
                                  {"straight_sunlight", {"false", "true", "true", "true", "false"}},

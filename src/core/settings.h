@@ -13,7 +13,7 @@ namespace tarn {
 enum class WaterTier { Block, Level, Pressure };
 enum class Quality { Baseline, Fast, Balanced, Quality, Exact };
 enum class Traversal { Voxel, Distance };
-enum class LightSampling { None, Sun, SunAndSky };
+enum class LightSampling { None, Lights, All };
 enum class DiffuseSampling { Cosine, Uniform };
 enum class History { None, Blend, Count, Exact };
 enum class Filter { None, Gaussian, EdgeAware };

@@ -27,8 +27,10 @@
     REAL(resolution_scale, 1, 0.25, 1, LIGHT, TARGETS, "Traced pixels per shown pixel, along each side.")    \
     CHOICE(Traversal, traversal, Distance, LIGHT, IMAGE,                                                     \
            "voxel: step through every voxel; distance: skip empty bricks. Same picture.")                    \
-    CHOICE(LightSampling, light_sampling, Sun, LIGHT, IMAGE,                                                 \
-           "Light sampled at every scattering: none (found by chance), the sun, or sun and sky.")            \
+    CHOICE(                                                                                                  \
+        LightSampling, light_sampling, Lights, LIGHT, IMAGE,                                                 \
+        "Light sampled at every scattering: none (found by chance), lights (the sun and emissive voxels), "  \
+        "or all (the sky too).")                                                                             \
     CHOICE(DiffuseSampling, diffuse_sampling, Cosine, LIGHT, IMAGE,                                          \
            "Diffuse directions: by their cosine, or uniform over the hemisphere (more noise).")              \
     BOOL(sun_through_water, true, LIGHT, IMAGE,                                                              \

@@ -7,6 +7,7 @@
 #include "gl/program.h"
 #include "gl/texture.h"
 #include "gl/timers.h"
+#include "passes/emitters.h"
 
 namespace tarn {
 
@@ -18,6 +19,7 @@ struct TraceFeatures {
     bool coated = false;        // opaque materials with an interface, metals
     bool sun = false;           // sampled
     bool sky = false;           // sampled
+    bool emitters = false;      // emissive voxels, sampled
     bool smooth_water = false;  // levels of neighbouring voxels shaded as one surface; with clear
     auto operator<=>(const TraceFeatures&) const = default;
 };
@@ -28,7 +30,8 @@ class TracePass {
         const gl::Texture& cells;
         const gl::Texture& brick_distance;
         const gl::Texture& albedo_table;
-        const gl::Buffer& rejected;  // one uint, counted up
+        const EmittersPass* emitters;  // null unless the feature is on
+        const gl::Buffer& rejected;    // one uint, counted up
     };
     struct Outputs {
         const gl::Framebuffer& target;  // radiance, position, normal, material
