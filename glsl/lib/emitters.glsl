@@ -1,5 +1,5 @@
 // Emissive voxels as lights: sampled by descending their tree in proportion to power over squared distance, then one
-// voxel of the brick, then a point on the faces that look at the receiver.
+// voxel of the brick, then a point on its faces that look at the receiver.
 #include "lib/emitter_tree.glsl"
 #include "lib/rng.glsl"
 #include "lib/traversal.glsl"
@@ -14,9 +14,16 @@ struct Receiver {
 struct EmitterSample {
     vec3 point_vox;  // on a face of the voxel
     ivec3 cell;
+    ivec3 outside;  // the cell before that face
     int axis;
-    float pdf;  // per solid angle at the receiver; 0: no light was found
+    float pdf;  // per area of the face (vox^-2); 0: no light was found
 };
+
+// The density per solid angle, at `from_vox`, of a point sampled on a face across `axis`; nothing bends light between.
+float pdf_of_direction(float pdf, vec3 from_vox, vec3 point_vox, int axis) {
+    vec3 d = point_vox - from_vox;
+    return pdf * dot(d, d) * length(d) / max(abs(d[axis]), 1e-12);
+}
 
 // How far the box [low, low + width) reaches into the receiver's half space; negative: not at all.
 float reach(Receiver to, vec3 low, float width) {
@@ -64,7 +71,7 @@ int set_bit(uvec2 mask, int k) {
 }
 
 EmitterSample sample_emitter(Receiver to) {
-    EmitterSample result = EmitterSample(vec3(0.0), ivec3(0), 0, 0.0);
+    EmitterSample result = EmitterSample(vec3(0.0), ivec3(0), ivec3(0), 0, 0.0);
     float pdf = 1.0;
     ivec3 node = ivec3(0);
     for (int level = emitter_depth.x - 2; level >= 0; --level) {
@@ -101,15 +108,16 @@ EmitterSample sample_emitter(Receiver to) {
     within[axis] = side[axis] > 0 ? 1.0 : 0.0;
     result.point_vox = vec3(cell) + within;
     result.cell = cell;
+    result.outside = cell;
+    result.outside[axis] += side[axis];
     result.axis = axis;
-    // A face is chosen in proportion to its cosine times distance: per solid angle all have the same density.
-    float d = length(result.point_vox - to.at_vox);
-    if (pdf > 0.0 && count > 0 && sum > 0.0) result.pdf = pdf / float(count) * d * d * d / sum;
+    // In proportion to cosine times distance: about the same density per solid angle on all three.
+    if (pdf > 0.0 && count > 0 && sum > 0.0) result.pdf = pdf / float(count) * distance[axis] / sum;
     return result;
 }
 
-// The density with which sample_emitter finds `point_vox` on a face of the emissive voxel `cell`.
-float emitter_pdf(Receiver to, ivec3 cell, vec3 point_vox) {
+// The density with which sample_emitter finds a point on the face across `axis` of the emissive voxel `cell`.
+float emitter_pdf(Receiver to, ivec3 cell, int axis) {
     float pdf = 1.0;
     ivec3 brick = cell / BRICK_SIDE;
     for (int level = emitter_depth.x - 2; level >= 0; --level) {
@@ -123,7 +131,6 @@ float emitter_pdf(Receiver to, ivec3 cell, vec3 point_vox) {
     ivec3 side;
     vec3 distance = visible_faces(to.at_vox, cell, side);
     float sum = distance.x + distance.y + distance.z;
-    float d = length(point_vox - to.at_vox);
     int count = exposed_emitters(brick);
-    return count > 0 && sum > 0.0 ? pdf / float(count) * d * d * d / sum : 0.0;
+    return count > 0 && sum > 0.0 ? pdf / float(count) * distance[axis] / sum : 0.0;
 }

@@ -6,6 +6,7 @@
 #include "lib/vertex.glsl"
 #ifdef TRACE_EMITTERS
 #include "lib/emitters.glsl"
+#include "lib/water_crossing.glsl"
 #endif
 #ifdef TRACE_SMOOTH_WATER
 #include "lib/water_surface.glsl"
@@ -112,38 +113,118 @@ vec3 sampled_sky(Vertex v) {
 #endif
 
 #ifdef TRACE_EMITTERS
+// How much of an emissive voxel counts when the path runs into it.
+const int EMITTER_BY_CHANCE = 0;  // all: nothing else finds it
+const int EMITTER_SAMPLED = 1;    // sampled at the last vertex: weighted against it
+const int EMITTER_CROSSED = 2;    // the same through the water's surface, which the path has crossed since
+
 Receiver receiver_of(Vertex v) { return Receiver(v.start.origin_vox, v.axis, v.side); }
 
-// Light of one emissive voxel in the medium of the vertex, by one sampled point on its faces.
-vec3 sampled_emitter(Vertex v) {
+#ifdef TRACE_CLEAR
+bool is_air_to_water(uint a, uint b) {
+    return (a == MATERIAL_AIR && b == MATERIAL_WATER) || (a == MATERIAL_WATER && b == MATERIAL_AIR);
+}
+
+uint medium_at(ivec3 cell, vec3 point) {
+    uint value = inside_world(cell) ? cell_byte(cell) : MATERIAL_AIR;
+    bool dry = is_partly_filled(value) && point.y >= surface_height(cell, value);
+    return dry ? MATERIAL_AIR : material_of(value);
+}
+
+// Whether a surface met at `height` is the one that light was connected through. Smooth water is shaded as level.
+bool is_same_surface(float height, float connected) {
+#ifdef TRACE_SMOOTH_WATER
+    return abs(height - connected) <= WATER_STEP_MAX;
+#else
+    return height == connected;
+#endif
+}
+#endif
+
+// Light of one emissive voxel, by one sampled point on its faces: straight through the medium of the vertex or, where
+// `above` (of a vertex under water: the height of the surface; else of the emitter's) is asked for, across the surface
+// of smooth water.
+vec3 sampled_emitter(Vertex v, bool across_water, float above) {
     Receiver here = receiver_of(v);
     EmitterSample emitter = sample_emitter(here);
-    vec3 dir = normalize(emitter.point_vox - here.at_vox);
-    vec3 f_cos;
-    float pdf;
-    vertex_eval(v, vertex_local(v, dir), f_cos, pdf);
-    vec3 light = f_cos * materials[material_of(cell_byte(emitter.cell))].emission_metallic.rgb;
-    bool asked = emitter.pdf > 0.0 && max_component(light) > 0.0;
-    light *= asked ? power_heuristic(emitter.pdf, pdf) / emitter.pdf : 0.0;
-    RayStart ray = v.start;
-    float distance_vox = 0.0;
-    bool seen = false;
-#ifdef TRACE_SMOOTH_WATER
-    for (int leg = 0; leg < STRAIGHT_LEGS_MAX && asked; ++leg)
-#endif
-    {
-        RayHit hit = trace_ray(ray, dir, asked ? frame.trace_limits.x : -1.0);
-        distance_vox += hit.t;
-        seen = hit.kind == HIT_FACE && hit.cell == emitter.cell && hit.axis == emitter.axis;
-#ifdef TRACE_SMOOTH_WATER
-        WaterFace water = water_face(ray.medium, dir, hit, hit_point(ray, dir, hit));
-        if (!water.is_smooth || water.met) break;
-        ray = water.start;
-#endif
-    }
+    vec3 target = emitter.point_vox;
+    bool asked = emitter.pdf > 0.0;
+    vec3 dir = normalize(target - here.at_vox);
+    float pdf = pdf_of_direction(emitter.pdf, here.at_vox, target, emitter.axis);
+    float chance = 1.0;  // of the scattered path to go on as this one
+    vec3 light = materials[material_of(cell_byte(emitter.cell))].emission_metallic.rgb;
 #ifdef TRACE_CLEAR
-    light *= exp(-absorption_per_m(v.start.medium) * (frame.trace_limits.y * distance_vox));
+    uint medium = medium_at(emitter.outside, target);
+    bool crosses = across_water && is_air_to_water(v.start.medium, medium);
+    // A loop that runs at most once: llvmpipe runs the body of a branch for lanes that do not take it.
+    for (bool once = asked && crosses; once; once = false) {
+        if (medium == MATERIAL_WATER) above = surface_above(RayStart(target, emitter.outside, medium));
+        asked = above != NO_SURFACE && (here.at_vox.y - above) * (target.y - above) < 0.0;
+        float eta = ior_of(medium) / ior_of(v.start.medium);
+        Crossing crossing = cross_surface(here.at_vox, ior_of(v.start.medium), target, ior_of(medium), above);
+        dir = normalize(crossing.at_vox - here.at_vox);
+        vec3 onward = normalize(target - crossing.at_vox);
+        pdf = emitter.pdf * crossing.area_per_angle / max(abs(onward[emitter.axis]), 1e-12);
+        chance = crossing.transmittance;
+        light *= crossing.transmittance / (eta * eta);
+    }
+    asked = asked && (crosses || medium == v.start.medium);
+#endif
+    vec3 f_cos;
+    float pdf_scattered;
+    vertex_eval(v, vertex_local(v, dir), f_cos, pdf_scattered);
+    light *= f_cos;
+    asked = asked && pdf > 0.0 && max_component(light) > 0.0;
+    light *= asked ? power_heuristic(pdf, pdf_scattered * chance) / pdf : 0.0;
+    RayStart ray = v.start;
+    bool seen = false;
+#ifdef TRACE_CLEAR
+    bool crossed = false;
+    for (int leg = 0; leg < STRAIGHT_LEGS_MAX && asked; ++leg) {
+        RayHit hit = trace_ray(ray, dir, frame.trace_limits.x);
+        light *= exp(-absorption_per_m(ray.medium) * (frame.trace_limits.y * hit.t));
+        seen = crossed == crosses && hit.kind == HIT_FACE && hit.cell == emitter.cell && hit.axis == emitter.axis;
+        vec3 point = hit_point(ray, dir, hit);
+#ifdef TRACE_SMOOTH_WATER
+        WaterFace water = water_face(ray.medium, dir, hit, point);
+        if (water.is_smooth && !water.met) {
+            ray = water.start;
+            continue;
+        }
+#endif
+        bool onward = crosses && !crossed && hit.kind != HIT_NONE && hit.axis == 1 && hit.beyond == medium &&
+                      is_same_surface(point.y, above);
+        if (!onward) break;
+        crossed = true;
+        ray = RayStart(point, hit.cell, hit.beyond);
+        dir = normalize(target - point);
+    }
+#else
+    RayHit hit = trace_ray(ray, dir, asked ? frame.trace_limits.x : -1.0);
+    seen = hit.kind == HIT_FACE && hit.cell == emitter.cell && hit.axis == emitter.axis;
 #endif
     return asked && seen ? light : vec3(0.0);
+}
+
+// The part of an emissive voxel's light that a scattered path adds which meets it at `hit`, `at` on its face. `pdf` is the
+// density of that path; after EMITTER_CROSSED it crossed the surface at `crossed_at`, `above` as in sampled_emitter.
+float emitter_weight(int state, Receiver from, RayHit hit, RayStart at, float pdf, float crossed_at, float above) {
+    vec3 point = at.origin_vox;
+    float pdf_sampled = emitter_pdf(from, hit.cell, hit.axis);
+#ifdef TRACE_CLEAR
+    if (state == EMITTER_CROSSED) {
+        bool under = at.medium == MATERIAL_WATER;
+        for (bool once = under; once; once = false) above = surface_above(at);
+        if (above == NO_SURFACE || !is_same_surface(crossed_at, above)) return 1.0;
+#ifdef TRACE_SMOOTH_WATER
+        return 0.0;
+#endif
+        float ior_here = ior_of(under ? MATERIAL_AIR : MATERIAL_WATER);
+        Crossing crossing = cross_surface(from.at_vox, ior_here, point, ior_of(at.medium), above);
+        vec3 onward = normalize(point - crossing.at_vox);
+        return power_heuristic(pdf, pdf_sampled * crossing.area_per_angle / max(abs(onward[hit.axis]), 1e-12));
+    }
+#endif
+    return power_heuristic(pdf, pdf_of_direction(pdf_sampled, from.at_vox, point, hit.axis));
 }
 #endif

@@ -33,8 +33,10 @@ vec3 trace_path(vec3 eye_vox, vec3 dir, out FirstSurface first) {
     float pdf_last = 0.0;      // of the last scattering
     float sky_pdf_last = 0.0;  // with which sky sampling would have made the same direction; 0: it could not
 #ifdef TRACE_EMITTERS
-    Receiver receiver = Receiver(vec3(0.0), 0, 1.0);  // the last vertex
-    bool emitters_sampled = false;                    // from it, along the direction that was scattered to
+    int emitter_state = EMITTER_BY_CHANCE;
+    Receiver receiver = Receiver(vec3(0.0), 0, 1.0);  // the last vertex that scattered
+    float above = NO_SURFACE;                         // it, where it lies under water
+    float crossed_at = 0.0;
 #endif
     if (!enter_world(eye_vox, dir, ray, t_entry))
         return sky_radiance(dir) + (in_sun_disc(dir) ? frame.sun_radiance.rgb : vec3(0.0));
@@ -99,8 +101,9 @@ vec3 trace_path(vec3 eye_vox, vec3 dir, out FirstSurface first) {
         vec3 emitted = beyond.emission_metallic.rgb;
 #ifdef TRACE_EMITTERS
         // A loop that runs at most once: llvmpipe runs the body of a branch for lanes that do not take it.
-        for (bool twice = emitters_sampled && hit.kind == HIT_FACE && is_emitter(hit.byte_beyond); twice; twice = false)
-            emitted *= power_heuristic(pdf_last, emitter_pdf(receiver, hit.cell, v.start.origin_vox));
+        bool sampled_too = emitter_state != EMITTER_BY_CHANCE && hit.kind == HIT_FACE && is_emitter(hit.byte_beyond);
+        for (bool once = sampled_too; once; once = false)
+            emitted *= emitter_weight(emitter_state, receiver, hit, v.start, pdf_last, crossed_at, above);
 #endif
         light += limited(throughput * emitted, bounce);
         if (bounce >= frame.trace_options.x) break;
@@ -122,7 +125,14 @@ vec3 trace_path(vec3 eye_vox, vec3 dir, out FirstSurface first) {
         light += limited(throughput * sampled_sky(v), bounce + 1);
 #endif
 #ifdef TRACE_EMITTERS
-        if (!delta) light += limited(throughput * sampled_emitter(v), bounce + 1);
+        bool across_water = false;
+#ifdef TRACE_CLEAR
+        across_water = through_smooth_water;
+        for (bool once = !delta && across_water; once; once = false)
+            above = ray.medium == MATERIAL_WATER ? surface_above(v.start) : NO_SURFACE;
+#endif
+        for (bool once = !delta; once; once = false)
+            light += limited(throughput * sampled_emitter(v, across_water, above), bounce + 1);
 #endif
 
         vec3 u = vec3(rng_vec2(), 0.0);
@@ -165,11 +175,22 @@ vec3 trace_path(vec3 eye_vox, vec3 dir, out FirstSurface first) {
         bool sky_sampled = next.pdf > 0.0 && v.start.medium == MATERIAL_AIR && !v.surface.transmissive;
         sky_pdf_last = sky_sampled ? next.wi.z * INV_PI : 0.0;
 #endif
+        if (next.pdf > 0.0) pdf_last = next.pdf;
 #ifdef TRACE_EMITTERS
-        receiver = receiver_of(v);
-        emitters_sampled = !delta && next.pdf > 0.0 && !transmitted;
+        if (next.pdf > 0.0) {
+            receiver = receiver_of(v);
+            emitter_state = delta || transmitted ? EMITTER_BY_CHANCE : EMITTER_SAMPLED;
+        } else {
+            bool crosses = false;
+#ifdef TRACE_CLEAR
+            crosses = emitter_state == EMITTER_SAMPLED && transmitted && across_water && v.axis == 1 &&
+                      is_air_to_water(v.start.medium, hit.beyond);
+            if (crosses) pdf_last *= 1.0 - fresnel_dielectric(v.wo.z, v.surface.eta);
 #endif
-        pdf_last = next.pdf;
+            emitter_state = crosses ? EMITTER_CROSSED : EMITTER_BY_CHANCE;
+            crossed_at = v.start.origin_vox.y;
+        }
+#endif
         float survival = 1.0;
         if (bounce >= frame.trace_options.y) {
             // Radiance is scaled by the index squared while inside a medium; survival must not depend on it.

@@ -28,9 +28,9 @@ void main() {
             continue;
         }
         bool ahead = side * (s.point_vox[axis] - at_vox[axis]) > 0.0;
-        float weight = ahead ? 1.0 / s.pdf : 0.0;
+        float weight = ahead ? 1.0 / pdf_of_direction(s.pdf, at_vox, s.point_vox, s.axis) : 0.0;
         sums += vec4(weight, weight * weight, 0.0, 0.0);
-        sums.w = max(sums.w, abs(emitter_pdf(to, s.cell, s.point_vox) / s.pdf - 1.0));
+        sums.w = max(sums.w, abs(emitter_pdf(to, s.cell, s.axis) / s.pdf - 1.0));
     }
     results[i].sums = sums;
 }
