@@ -117,10 +117,16 @@ vec3 sampled_sky(Vertex v) {
 const int EMITTER_BY_CHANCE = 0;  // all: nothing else finds it
 const int EMITTER_SAMPLED = 1;    // sampled at the last vertex: weighted against it
 const int EMITTER_CROSSED = 2;    // the same through the water's surface, which the path has crossed since
+const int EMITTER_MIRRORED = 3;   // the same by its mirror image in the surface, off which the path has come since
 
 Receiver receiver_of(Vertex v) { return Receiver(v.start.origin_vox, v.axis, v.side); }
 
 #ifdef TRACE_CLEAR
+// As seen in the surface at `height`.
+Receiver mirror_image(Receiver to, float height) {
+    return Receiver(vec3(to.at_vox.x, 2.0 * height - to.at_vox.y, to.at_vox.z), to.axis, to.axis == 1 ? -to.side : to.side);
+}
+
 bool is_air_to_water(uint a, uint b) {
     return (a == MATERIAL_AIR && b == MATERIAL_WATER) || (a == MATERIAL_WATER && b == MATERIAL_AIR);
 }
@@ -141,11 +147,14 @@ bool is_same_surface(float height, float connected) {
 }
 #endif
 
-// Light of one emissive voxel, by one sampled point on its faces: straight through the medium of the vertex or, where
-// `above` (of a vertex under water: the height of the surface; else of the emitter's) is asked for, across the surface
-// of smooth water.
-vec3 sampled_emitter(Vertex v, bool across_water, float above) {
+// Light of one emissive voxel, by one sampled point on its faces: straight through the medium of the vertex; across the
+// surface of smooth water where `across_water`; by its mirror image from below where `mirrored`. `above`: the height of
+// the surface over a vertex under water.
+vec3 sampled_emitter(Vertex v, bool across_water, float above, bool mirrored) {
     Receiver here = receiver_of(v);
+#ifdef TRACE_CLEAR
+    if (mirrored) here = mirror_image(here, above);
+#endif
     EmitterSample emitter = sample_emitter(here);
     vec3 target = emitter.point_vox;
     bool asked = emitter.pdf > 0.0;
@@ -155,7 +164,7 @@ vec3 sampled_emitter(Vertex v, bool across_water, float above) {
     vec3 light = materials[material_of(cell_byte(emitter.cell))].emission_metallic.rgb;
 #ifdef TRACE_CLEAR
     uint medium = medium_at(emitter.outside, target);
-    bool crosses = across_water && is_air_to_water(v.start.medium, medium);
+    bool crosses = across_water && !mirrored && is_air_to_water(v.start.medium, medium);
     // A loop that runs at most once: llvmpipe runs the body of a branch for lanes that do not take it.
     for (bool once = asked && crosses; once; once = false) {
         if (medium == MATERIAL_WATER) above = surface_above(RayStart(target, emitter.outside, medium));
@@ -169,6 +178,11 @@ vec3 sampled_emitter(Vertex v, bool across_water, float above) {
         light *= crossing.transmittance / (eta * eta);
     }
     asked = asked && (crosses || medium == v.start.medium);
+    if (mirrored) {
+        dir.y = -dir.y;
+        chance = fresnel_dielectric(abs(dir.y), ior_of(MATERIAL_AIR) / ior_of(v.start.medium));
+        light *= chance;
+    }
 #endif
     vec3 f_cos;
     float pdf_scattered;
@@ -179,11 +193,11 @@ vec3 sampled_emitter(Vertex v, bool across_water, float above) {
     RayStart ray = v.start;
     bool seen = false;
 #ifdef TRACE_CLEAR
-    bool crossed = false;
+    bool met = false;  // the surface
     for (int leg = 0; leg < STRAIGHT_LEGS_MAX && asked; ++leg) {
         RayHit hit = trace_ray(ray, dir, frame.trace_limits.x);
         light *= exp(-absorption_per_m(ray.medium) * (frame.trace_limits.y * hit.t));
-        seen = crossed == crosses && hit.kind == HIT_FACE && hit.cell == emitter.cell && hit.axis == emitter.axis;
+        seen = met == (crosses || mirrored) && hit.kind == HIT_FACE && hit.cell == emitter.cell && hit.axis == emitter.axis;
         vec3 point = hit_point(ray, dir, hit);
 #ifdef TRACE_SMOOTH_WATER
         WaterFace water = water_face(ray.medium, dir, hit, point);
@@ -192,11 +206,11 @@ vec3 sampled_emitter(Vertex v, bool across_water, float above) {
             continue;
         }
 #endif
-        bool onward = crosses && !crossed && hit.kind != HIT_NONE && hit.axis == 1 && hit.beyond == medium &&
-                      is_same_surface(point.y, above);
+        bool onward = (crosses || mirrored) && !met && hit.kind != HIT_NONE && hit.axis == 1 &&
+                      hit.beyond == (mirrored ? MATERIAL_AIR : medium) && is_same_surface(point.y, above);
         if (!onward) break;
-        crossed = true;
-        ray = RayStart(point, hit.cell, hit.beyond);
+        met = true;
+        ray = RayStart(point, mirrored ? hit.previous : hit.cell, medium);
         dir = normalize(target - point);
     }
 #else
@@ -207,18 +221,23 @@ vec3 sampled_emitter(Vertex v, bool across_water, float above) {
 }
 
 // The part of an emissive voxel's light that a scattered path adds which meets it at `hit`, `at` on its face. `pdf` is the
-// density of that path; after EMITTER_CROSSED it crossed the surface at `crossed_at`, `above` as in sampled_emitter.
-float emitter_weight(int state, Receiver from, RayHit hit, RayStart at, float pdf, float crossed_at, float above) {
+// density of that path; unless EMITTER_SAMPLED it met the water's surface at `met_at`, `above` as in sampled_emitter.
+float emitter_weight(int state, Receiver from, RayHit hit, RayStart at, float pdf, float met_at, float above) {
     vec3 point = at.origin_vox;
-    float pdf_sampled = emitter_pdf(from, hit.cell, hit.axis);
 #ifdef TRACE_CLEAR
-    if (state == EMITTER_CROSSED) {
-        bool under = at.medium == MATERIAL_WATER;
-        for (bool once = under; once; once = false) above = surface_above(at);
-        if (above == NO_SURFACE || !is_same_surface(crossed_at, above)) return 1.0;
+    bool under = at.medium == MATERIAL_WATER;
+    if (state != EMITTER_SAMPLED) {
+        for (bool once = state == EMITTER_CROSSED && under; once; once = false) above = surface_above(at);
+        if (above == NO_SURFACE || !is_same_surface(met_at, above)) return 1.0;
 #ifdef TRACE_SMOOTH_WATER
         return 0.0;
 #endif
+    }
+    if (state == EMITTER_MIRRORED) from = mirror_image(from, above);
+#endif
+    float pdf_sampled = emitter_pdf(from, hit.cell, hit.axis);
+#ifdef TRACE_CLEAR
+    if (state == EMITTER_CROSSED) {
         float ior_here = ior_of(under ? MATERIAL_AIR : MATERIAL_WATER);
         Crossing crossing = cross_surface(from.at_vox, ior_here, point, ior_of(at.medium), above);
         vec3 onward = normalize(point - crossing.at_vox);

@@ -36,7 +36,7 @@ vec3 trace_path(vec3 eye_vox, vec3 dir, out FirstSurface first) {
     int emitter_state = EMITTER_BY_CHANCE;
     Receiver receiver = Receiver(vec3(0.0), 0, 1.0);  // the last vertex that scattered
     float above = NO_SURFACE;                         // it, where it lies under water
-    float crossed_at = 0.0;
+    float met_at = 0.0;
 #endif
     if (!enter_world(eye_vox, dir, ray, t_entry))
         return sky_radiance(dir) + (in_sun_disc(dir) ? frame.sun_radiance.rgb : vec3(0.0));
@@ -103,7 +103,7 @@ vec3 trace_path(vec3 eye_vox, vec3 dir, out FirstSurface first) {
         // A loop that runs at most once: llvmpipe runs the body of a branch for lanes that do not take it.
         bool sampled_too = emitter_state != EMITTER_BY_CHANCE && hit.kind == HIT_FACE && is_emitter(hit.byte_beyond);
         for (bool once = sampled_too; once; once = false)
-            emitted *= emitter_weight(emitter_state, receiver, hit, v.start, pdf_last, crossed_at, above);
+            emitted *= emitter_weight(emitter_state, receiver, hit, v.start, pdf_last, met_at, above);
 #endif
         light += limited(throughput * emitted, bounce);
         if (bounce >= frame.trace_options.x) break;
@@ -131,8 +131,9 @@ vec3 trace_path(vec3 eye_vox, vec3 dir, out FirstSurface first) {
         for (bool once = !delta && across_water; once; once = false)
             above = ray.medium == MATERIAL_WATER ? surface_above(v.start) : NO_SURFACE;
 #endif
-        for (bool once = !delta; once; once = false)
-            light += limited(throughput * sampled_emitter(v, across_water, above), bounce + 1);
+        int images = delta ? 0 : across_water && above != NO_SURFACE ? 2 : 1;
+        for (int image = 0; image < images; ++image)
+            light += limited(throughput * sampled_emitter(v, across_water, above, image == 1), bounce + 1);
 #endif
 
         vec3 u = vec3(rng_vec2(), 0.0);
@@ -181,14 +182,17 @@ vec3 trace_path(vec3 eye_vox, vec3 dir, out FirstSurface first) {
             receiver = receiver_of(v);
             emitter_state = delta || transmitted ? EMITTER_BY_CHANCE : EMITTER_SAMPLED;
         } else {
-            bool crosses = false;
+            int state = EMITTER_BY_CHANCE;
 #ifdef TRACE_CLEAR
-            crosses = emitter_state == EMITTER_SAMPLED && transmitted && across_water && v.axis == 1 &&
-                      is_air_to_water(v.start.medium, hit.beyond);
-            if (crosses) pdf_last *= 1.0 - fresnel_dielectric(v.wo.z, v.surface.eta);
+            bool onward = emitter_state == EMITTER_SAMPLED && across_water && v.axis == 1 &&
+                          is_air_to_water(v.start.medium, hit.beyond);
+            if (onward && transmitted) state = EMITTER_CROSSED;
+            if (onward && !transmitted && v.start.medium == MATERIAL_WATER) state = EMITTER_MIRRORED;
+            float reflectance = fresnel_dielectric(v.wo.z, v.surface.eta);
+            pdf_last *= state == EMITTER_CROSSED ? 1.0 - reflectance : state == EMITTER_MIRRORED ? reflectance : 1.0;
 #endif
-            emitter_state = crosses ? EMITTER_CROSSED : EMITTER_BY_CHANCE;
-            crossed_at = v.start.origin_vox.y;
+            emitter_state = state;
+            met_at = v.start.origin_vox.y;
         }
 #endif
         float survival = 1.0;
