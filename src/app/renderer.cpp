@@ -148,10 +148,10 @@ TraceFeatures Renderer::Parts::features(const Simulation& simulation) const {
         if (!clear) features.coated |= m.ior != 1 || m.metallic > 0;
         features.clear |= clear;
     }
-    const glm::vec3 sun = settings.sun_irradiance;
     features.skip = settings.traversal == Traversal::Distance;
-    features.sun = settings.light_sampling != LightSampling::None && std::max({sun.x, sun.y, sun.z}) > 0;
+    features.sun = settings.light_sampling != LightSampling::None && block.sun_radiance.w > 0;
     features.sky = settings.light_sampling == LightSampling::SunAndSky;
+    features.clear_sky = settings.sky_model == SkyModel::Preetham;
     features.smooth_water = settings.smooth_water && may_contain(simulation, MATERIAL_WATER);
     return features;
 }
