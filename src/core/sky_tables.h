@@ -47,7 +47,7 @@ constexpr double unit_klx = 25;
 constexpr double twilight_per_deg = 0.38;
 
 // Radiance of the sky that is left without the sun, linear sRGB: a night for eyes that are used to it. The
-// real one, without a moon, is 100,000 times darker.
-constexpr std::array<double, 3> night_radiance = {0.004, 0.007, 0.014};
+// real one, without a moon, is a million times darker.
+constexpr std::array<double, 3> night_radiance = {0.010, 0.018, 0.036};
 
 }  // namespace tarn::sky_tables

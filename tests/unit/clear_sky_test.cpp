@@ -1,6 +1,7 @@
 // The reference of the clear sky against numbers known without it, and the sun's clock.
 #include "reference/clear_sky.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -88,6 +89,58 @@ TEST(ClearSky, SunAndSkyShareTheLightAsOnAClearDay) {
             if (elevation_deg >= 30) {
                 EXPECT_LT(part, 0.45) << turbidity << " " << elevation_deg;
             }
+        }
+    }
+}
+
+// Relative variance of one cosine-weighted sample of the sky's luminance on a surface, over the directions
+// that are not below the horizon.
+double sample_variance(const ClearSky& sky, const glm::dvec3& normal) {
+    const glm::dvec3 across(normal.z, normal.x, normal.y);
+    const glm::dvec3 along = glm::cross(normal, across);
+    constexpr int n = 60;
+    double count = 0;
+    double sum = 0;
+    double squares = 0;
+    for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < 2 * n; ++j) {
+            const double u = (i + 0.5) / n;
+            const double phi = pi * (j + 0.5) / n;
+            const glm::dvec3 dir = normal * std::sqrt(1 - u) + across * (std::sqrt(u) * std::cos(phi)) +
+                                   along * (std::sqrt(u) * std::sin(phi));
+            if (dir.y <= 0) continue;
+            const double y = clear_sky_yxy(sky, dir).x;
+            count += 1;
+            sum += y;
+            squares += y * y;
+        }
+    }
+    return squares * count / (sum * sum) - 1;
+}
+
+// Sampling by the sky's radiance could take away this variance and no other. What a surface that sees half
+// its hemisphere has from that alone is 1, be the sky uniform.
+TEST(ClearSky, NeedsNoSamplingByItsRadiance) {
+    constexpr double half_hidden = 1;
+    const struct {
+        const char* name;
+        glm::dvec3 normal;
+    } surfaces[] = {
+        {"level", {0, 1, 0}}, {"to the sun", {0, 0, -1}}, {"across", {1, 0, 0}}, {"away", {0, 0, 1}}};
+    for (const auto& surface : surfaces) {
+        for (const double turbidity : {2.0, 2.5, 5.0, 10.0}) {
+            fmt::print("{:<10} turbidity {:<4} relative variance at heights 0, 10, 20, 40, 63, 90:",
+                       surface.name, turbidity);
+            for (const double elevation_deg : {0.0, 10.0, 20.0, 40.0, 63.0, 90.0}) {
+                const double v = sample_variance({.turbidity = turbidity, .sun_elevation_deg = elevation_deg},
+                                                 surface.normal);
+                fmt::print(" {:.2f}", v);
+                EXPECT_LT(v, half_hidden) << surface.name << " " << turbidity << " " << elevation_deg;
+                if (turbidity >= 2.5) {
+                    EXPECT_LT(v, half_hidden / 2) << surface.name << " " << turbidity << " " << elevation_deg;
+                }
+            }
+            fmt::print("\n");
         }
     }
 }
