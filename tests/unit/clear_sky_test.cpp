@@ -69,14 +69,14 @@ TEST(ClearSky, ItsSunIsAsBrightAsClearDaysAre) {
         const double air = 1 / std::sin(elevation_deg * pi / 180);
         const double expected = 127.5 * std::exp(-0.21 * air);
         EXPECT_NEAR(clear_sun_xyz({.turbidity = 2, .sun_elevation_deg = elevation_deg}).y, expected,
-                    0.12 * expected)
+                    0.07 * expected)
             << elevation_deg;
     }
 }
 
 TEST(ClearSky, SunAndSkyShareTheLightAsOnAClearDay) {
-    // A part of the whole that grows with haze and as the sun sinks. The model's sky is known to be too
-    // bright: measured clear skies give 0.13 to 0.25 at these heights.
+    // A part of the whole that grows with haze and as the sun sinks. IES's clear day has 0.13 to 0.22 from 60
+    // to 30 degrees; the model's sky is known to be too bright, up to about twice there.
     for (const double turbidity : {2.0, 2.5, 3.0}) {
         double last = 0.2;
         for (const double elevation_deg : {60.0, 45.0, 30.0, 15.0}) {
