@@ -39,12 +39,17 @@ double zenith(int channel, double turbidity, double sun) {
 }
 
 // From the chromaticities of the primaries and of D65 (IEC 61966-2-1).
-glm::dvec3 srgb_of(const glm::dvec3& xyz) {
+glm::dmat3 xyz_to_srgb() {
     const auto column = [](double x, double y) { return glm::dvec3(x / y, 1, (1 - x - y) / y); };
     const glm::dmat3 primaries(column(0.64, 0.33), column(0.30, 0.60), column(0.15, 0.06));
     const glm::dvec3 amounts = glm::inverse(primaries) * column(0.3127, 0.3290);
-    const glm::dmat3 to_xyz(primaries[0] * amounts.x, primaries[1] * amounts.y, primaries[2] * amounts.z);
-    return glm::max(glm::inverse(to_xyz) * xyz, glm::dvec3(0));
+    return glm::inverse(
+        glm::dmat3(primaries[0] * amounts.x, primaries[1] * amounts.y, primaries[2] * amounts.z));
+}
+
+glm::dvec3 srgb_of(const glm::dvec3& xyz) {
+    static const glm::dmat3 matrix = xyz_to_srgb();
+    return glm::max(matrix * xyz, glm::dvec3(0));
 }
 
 double bell(double nm, double mean, double below, double above) {

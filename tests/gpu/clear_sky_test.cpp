@@ -17,11 +17,14 @@ struct Sky {
     Settings settings;
     FrameBlock block;
 
-    Sky(float turbidity, float azimuth_deg, float elevation_deg) {
+    Sky(float turbidity, float azimuth_deg, float elevation_deg, float radius_deg = 0.27f,
+        float brightness = 1) {
         settings.sky_model = SkyModel::Preetham;
         settings.turbidity = turbidity;
         settings.sun_azimuth_deg = azimuth_deg;
         settings.sun_elevation_deg = elevation_deg;
+        settings.sun_angular_radius_deg = radius_deg;
+        settings.sky_brightness = brightness;
         block = make_frame_block({.settings = settings,
                                   .world_size_vox = {1, 1, 1},
                                   .metres_per_voxel = 1,
@@ -96,19 +99,36 @@ TEST_F(ClearSkyTest, IsTheReferencesFromEveryDirectionAtEveryHeightOfTheSun) {
                     worst = std::max(worst, std::abs(seen[i][c] - expected[c]) / scale);
                 }
             }
-            const glm::dvec3 sun = clear_sun_irradiance(sky.reference());
-            for (int c = 0; c < 3; ++c) {
-                ASSERT_TRUE(std::isfinite(sky.block.sun_irradiance[c]) && sky.block.sun_irradiance[c] >= 0);
-                ASSERT_TRUE(std::isfinite(sky.block.sun_radiance[c]) && sky.block.sun_radiance[c] >= 0);
-                // Ten nanometres a step, and sRGB's matrix of four digits.
-                EXPECT_NEAR(sky.block.sun_irradiance[c], sun[c], 3e-3 * std::max({sun.x, sun.y, sun.z}))
-                    << turbidity << " " << elevation_deg;
-            }
         }
     }
     RecordProperty("worst", fmt::format("{}", worst));
     // Four digits of sRGB's matrix alone are 1.6e-4.
     EXPECT_LT(worst, 2e-4);
+}
+
+TEST_F(ClearSkyTest, ItsSunIsTheReferencesForEveryDiscAndBrightness) {
+    for (const float turbidity : {2.f, 2.5f, 4.f, 10.f}) {
+        for (float elevation_deg = -90; elevation_deg <= 90;
+             elevation_deg += elevation_deg < 1 && elevation_deg >= -1 ? 0.05f : 0.5f) {
+            for (const float radius_deg : {0.f, 0.27f, 10.f, 90.f}) {
+                for (const float brightness : {0.f, 1.f, 1000.f}) {
+                    const Sky sky(turbidity, 30, elevation_deg, radius_deg, brightness);
+                    const glm::dvec3 sun = clear_sun_irradiance(sky.reference());
+                    const double largest = std::max({sun.x, sun.y, sun.z});
+                    for (int c = 0; c < 3; ++c) {
+                        const float irradiance = sky.block.sun_irradiance[c];
+                        const float radiance = sky.block.sun_radiance[c];
+                        ASSERT_TRUE(std::isfinite(irradiance) && irradiance >= 0);
+                        ASSERT_TRUE(std::isfinite(radiance) && radiance >= 0);
+                        // Steps of ten nanometres where the reference has one; sRGB's matrix of four digits.
+                        ASSERT_NEAR(irradiance, sun[c], 3e-3 * largest)
+                            << turbidity << " " << elevation_deg << " " << radius_deg;
+                    }
+                    ASSERT_EQ(sky.block.sun_radiance.w, largest > 0 ? 1 : 0);
+                }
+            }
+        }
+    }
 }
 
 TEST_F(ClearSkyTest, APictureShowsItAndASunThatHasSetLightsNothing) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "picture.h"
+#include "reference/clear_sky.h"
 
 namespace tarn {
 
@@ -23,6 +24,7 @@ struct KnownPlace {
     std::vector<KnownBox> boxes;
     double sky = 0;  // radiance, all round
     double sun_irradiance = 0;
+    double turbidity = 0;  // of a clear sky and its sun, whose red light counts; 0: sky and sun_irradiance
     float sun_azimuth_deg = 0, sun_elevation_deg = 45, sun_radius_deg = 0;
     glm::vec3 eye;
     glm::vec3 target;
@@ -57,6 +59,10 @@ struct KnownPlace {
         s.sun_azimuth_deg = sun_azimuth_deg;
         s.sun_elevation_deg = sun_elevation_deg;
         s.sun_angular_radius_deg = sun_radius_deg;
+        if (turbidity > 0) {
+            s.sky_model = SkyModel::Preetham;
+            s.turbidity = static_cast<float>(turbidity);
+        }
         return scene;
     }
 
@@ -107,12 +113,17 @@ struct KnownPlace {
         const double radius = glm::radians(static_cast<double>(sun_radius_deg));
         const glm::dvec3 to_sun(std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
                                 -std::cos(azimuth) * std::cos(elevation));
+        const ClearSky clear{.turbidity = turbidity,
+                             .sun_azimuth_deg = sun_azimuth_deg,
+                             .sun_elevation_deg = sun_elevation_deg,
+                             .sun_radius_deg = sun_radius_deg};
+        const double irradiance = turbidity > 0 ? clear_sun_irradiance(clear).x : sun_irradiance;
         const glm::dvec3 across = glm::normalize(glm::cross(to_sun, glm::dvec3(0, 1, 0)));
         const glm::dvec3 upward = glm::cross(across, to_sun);
         const double cap_sr = 2 * known_pi * (1 - std::cos(radius));
         // A surface that faces the disc gets L pi sin^2 of it.
         const double sun_radiance =
-            radius > 0 ? sun_irradiance / (known_pi * std::sin(radius) * std::sin(radius)) : 0;
+            radius > 0 ? irradiance / (known_pi * std::sin(radius) * std::sin(radius)) : 0;
         double light = 0;
         for (int i = 1; i <= count; ++i) {
             const glm::dvec3 p = floor_point(point(i, root), point(i, root * root));
@@ -121,7 +132,8 @@ struct KnownPlace {
             const glm::dvec3 dir(std::sqrt(a) * std::cos(phi), std::sqrt(1 - a),
                                  std::sqrt(a) * std::sin(phi));
             const double emission = met(p, dir);
-            light += known_pi * (emission < 0 ? sky : emission);
+            const double beyond = turbidity > 0 ? clear_sky_radiance(clear, dir).x : sky;
+            light += known_pi * (emission < 0 ? beyond : emission);
             if (sun_radiance > 0) {
                 const double z = 1 - a * (1 - std::cos(radius));
                 const double r = std::sqrt(1 - z * z);

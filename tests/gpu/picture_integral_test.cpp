@@ -199,5 +199,17 @@ TEST_F(PictureIntegralTest, InThePenumbraOfAWallUnderASmallSun) {
     expect_everywhere(place, expected, 500'000, false);
 }
 
+// Where a low sun reaches, and in the wall's shadow.
+TEST_F(PictureIntegralTest, UnderAClearSkyBesideAWall) {
+    for (const float elevation_deg : {12.f, 50.f}) {
+        KnownPlace place = beside_a_wall();
+        place.turbidity = 2.5;
+        place.sun_azimuth_deg = elevation_deg < 20 ? 100 : 20;
+        place.sun_elevation_deg = elevation_deg;
+        place.sun_radius_deg = 1;
+        expect_everywhere(place, place.integral(quadrature_points / 4), 800'000, false);
+    }
+}
+
 }  // namespace
 }  // namespace tarn

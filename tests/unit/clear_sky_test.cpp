@@ -63,8 +63,8 @@ TEST(ClearSky, ItsZenithHasThePapersLuminance) {
 }
 
 TEST(ClearSky, ItsSunIsAsBrightAsClearDaysAre) {
-    // IES: 127.5 klx exp(-0.21 m) of direct sunlight on a clear day, m masses of air; its scatter is larger
-    // than 12 %.
+    // IES: 127.5 klx exp(-0.21 m) of direct sunlight on a clear day, m masses of air. Single days differ by
+    // more than this tolerance, which is as near as the sun here comes.
     for (const double elevation_deg : {10.0, 20.0, 30.0, 45.0, 60.0, 90.0}) {
         const double air = 1 / std::sin(elevation_deg * pi / 180);
         const double expected = 127.5 * std::exp(-0.21 * air);
@@ -75,19 +75,22 @@ TEST(ClearSky, ItsSunIsAsBrightAsClearDaysAre) {
 }
 
 TEST(ClearSky, SunAndSkyShareTheLightAsOnAClearDay) {
-    // A part of the whole that grows with haze and as the sun sinks. IES's clear day has 0.13 to 0.22 from 60
+    // A part of the whole that grows with haze and as the sun sinks. IES's clear day has 0.15 to 0.22 from 60
     // to 30 degrees; the model's sky is known to be too bright, up to about twice there.
+    double clearer[4] = {0.2, 0.2, 0.2, 0.2};
     for (const double turbidity : {2.0, 2.5, 3.0}) {
-        double last = 0.2;
-        for (const double elevation_deg : {60.0, 45.0, 30.0, 15.0}) {
-            const ClearSky sky{.turbidity = turbidity, .sun_elevation_deg = elevation_deg};
+        constexpr double heights_deg[4] = {60, 45, 30, 15};
+        double last = 0;
+        for (int i = 0; i < 4; ++i) {
+            const ClearSky sky{.turbidity = turbidity, .sun_elevation_deg = heights_deg[i]};
             const double from_sky = sky_illuminance_klx(sky);
-            const double from_sun = clear_sun_xyz(sky).y * std::sin(elevation_deg * pi / 180);
+            const double from_sun = clear_sun_xyz(sky).y * std::sin(heights_deg[i] * pi / 180);
             const double part = from_sky / (from_sky + from_sun);
-            EXPECT_GT(part, last) << turbidity << " " << elevation_deg;
-            last = part;
-            if (elevation_deg >= 30) {
-                EXPECT_LT(part, 0.45) << turbidity << " " << elevation_deg;
+            EXPECT_GT(part, last) << turbidity << " " << heights_deg[i];
+            EXPECT_GT(part, clearer[i]) << turbidity << " " << heights_deg[i];
+            last = clearer[i] = part;
+            if (heights_deg[i] >= 30) {
+                EXPECT_LT(part, 0.45) << turbidity << " " << heights_deg[i];
             }
         }
     }
