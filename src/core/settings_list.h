@@ -79,9 +79,9 @@
     COLOR(sun_irradiance, 4, 3.6, 3, 0, 1000000, SKY, IMAGE,                                                 \
           "Sunlight of the gradient on a surface that faces it; black: no sun.")                             \
     REAL(sun_angular_radius_deg, 0.27, 0, 90, SKY, IMAGE, "Angular radius of the sun; 0: sharp shadows.")    \
-    COLOR(sky_zenith, 0.12, 0.28, 0.7, 0, 1000000, SKY, IMAGE, "Radiance of the sky overhead.")              \
+    COLOR(sky_zenith, 0.12, 0.28, 0.7, 0, 1000000, SKY, IMAGE, "Radiance of the gradient overhead.")         \
     COLOR(sky_horizon, 0.5, 0.68, 0.95, 0, 1000000, SKY, IMAGE,                                              \
-          "Radiance of the sky at and below the horizon.")                                                   \
+          "Radiance of the gradient at and below the horizon.")                                              \
     REAL(exposure_ev, 0, -20, 20, DISPLAY, NONE, "Exposure in stops.")                                       \
     CHOICE(ToneMap, tone_map, Filmic, DISPLAY, NONE, "filmic: soft highlights; linear: clipped at white.")   \
     BOOL(overlay, true, DISPLAY, NONE, "Show times, ticks and counts in a corner.")                          \

@@ -9,7 +9,7 @@ class PictureIntegralTest : public GlTest {};
 
 constexpr int quadrature_points = 2'000'000;
 
-// `paths`: over the whole picture. `by_chance`: without light sampling as well.
+// `paths`: over the whole picture. `by_chance`: without light sampling, the first choice, as well.
 void expect_everywhere(const KnownPlace& place, double expected, int paths, bool by_chance = true) {
     constexpr int side_px = 64;
     for (std::size_t i = by_chance ? 0 : 1; i < choice_names<LightSampling>().size(); ++i) {
