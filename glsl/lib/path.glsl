@@ -1,7 +1,7 @@
 // The path tracer: one path from the eye, its light, and the first surface it meets. Options, so that what a scene
 // does not contain costs nothing: TRACE_CLEAR (water or glass), TRACE_ROUGH (some of it rough), TRACE_COATED (opaque
 // materials with an interface, metals), TRACE_SUN, TRACE_SKY and TRACE_EMITTERS (light sampling), TRACE_SMOOTH_WATER
-// (water's levels shaded as one surface; needs TRACE_CLEAR).
+// (water's levels shaded as one surface; needs TRACE_CLEAR), TRACE_PREETHAM (the sky).
 #include "lib/light_sampling.glsl"
 
 // How much of the sun's disc counts when the path runs into it: what light sampling has found already must not

@@ -154,11 +154,11 @@ TraceFeatures Renderer::Parts::features(const Simulation& simulation) const {
         const glm::vec3 shines = id == MATERIAL_WATER ? glm::vec3(0) : m.emission;  // as in lib/emitter_tree
         features.emitters |= std::max({shines.x, shines.y, shines.z}) > 0;
     }
-    const glm::vec3 sun = settings.sun_irradiance;
     features.skip = settings.traversal == Traversal::Distance;
-    features.sun = settings.light_sampling != LightSampling::None && std::max({sun.x, sun.y, sun.z}) > 0;
+    features.sun = settings.light_sampling != LightSampling::None && block.sun_radiance.w > 0;
     features.sky = settings.light_sampling == LightSampling::All;
     features.emitters &= settings.light_sampling != LightSampling::None;
+    features.clear_sky = settings.sky_model == SkyModel::Preetham;
     features.smooth_water = settings.smooth_water && may_contain(simulation, MATERIAL_WATER);
     return features;
 }

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/sun_clock.h"
 
 namespace tarn {
 
@@ -19,6 +20,7 @@ constexpr const char* light_sampling_names[] = {"none", "lights", "all"};
 constexpr const char* diffuse_sampling_names[] = {"cosine", "uniform"};
 constexpr const char* history_names[] = {"none", "blend", "count", "exact"};
 constexpr const char* filter_names[] = {"none", "gaussian", "edge_aware"};
+constexpr const char* sky_model_names[] = {"gradient", "preetham"};
 constexpr const char* tone_map_names[] = {"filmic", "linear"};
 
 // What each quality sets: every one names the same keys, so that the last chosen counts alone. baseline is
@@ -134,6 +136,10 @@ std::span<const char* const> choice_names<History>() {
 template <>
 std::span<const char* const> choice_names<Filter>() {
     return filter_names;
+}
+template <>
+std::span<const char* const> choice_names<SkyModel>() {
+    return sky_model_names;
 }
 template <>
 std::span<const char* const> choice_names<ToneMap>() {
@@ -253,14 +259,24 @@ std::string setting_text(const Settings& settings, const SettingInfo& info) {
     CHECK(false);
 }
 
+void assign_setting(Settings& settings, const SettingInfo& info, glm::dvec3 value) {
+    const std::string_view name = info.name;
+    if (name == "quality") {
+        apply_quality(settings, static_cast<Quality>(static_cast<int>(value.x)));
+        return;
+    }
+    info.set(settings, value);
+    if (name == "time_of_day_h") {
+        const SunPosition sun = sun_position(value.x);
+        settings.sun_azimuth_deg = static_cast<float>(sun.azimuth_deg);
+        settings.sun_elevation_deg = static_cast<float>(sun.elevation_deg);
+    }
+}
+
 void set_setting(Settings& settings, std::string_view name, std::string_view text) {
     const SettingInfo* info = find_setting(name);
     if (info == nullptr) fail("setting {}: no such setting; `tarn settings` lists them", name);
-    const glm::dvec3 value = parse_value(*info, text);
-    if (name == "quality")
-        apply_quality(settings, static_cast<Quality>(static_cast<int>(value.x)));
-    else
-        info->set(settings, value);
+    assign_setting(settings, *info, parse_value(*info, text));
 }
 
 void set_assignment(Settings& settings, std::string_view assignment) {

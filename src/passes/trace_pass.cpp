@@ -23,6 +23,7 @@ gl::ProgramDesc describe(const TraceFeatures& features) {
     define(features.sun, "TRACE_SUN");
     define(features.sky, "TRACE_SKY");
     define(features.emitters, "TRACE_EMITTERS");
+    define(features.clear_sky, "TRACE_PREETHAM");
     define(features.smooth_water, "TRACE_SMOOTH_WATER");
     return desc;
 }

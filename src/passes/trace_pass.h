@@ -20,6 +20,7 @@ struct TraceFeatures {
     bool sun = false;           // sampled
     bool sky = false;           // sampled
     bool emitters = false;      // emissive voxels, sampled
+    bool clear_sky = false;     // of Preetham, Shirley & Smits; otherwise two colours
     bool smooth_water = false;  // levels of neighbouring voxels shaded as one surface; with clear
     auto operator<=>(const TraceFeatures&) const = default;
 };
