@@ -104,7 +104,7 @@ void App::load(const std::string& name_or_path) {
 
 void App::reload() {
     simulation_ = std::make_unique<Simulation>(scene_, timers_);
-    renderer_->reset_history();
+    renderer_->world_replaced();
     history_.clear();
     tools_.end_stroke();
 }

@@ -14,7 +14,9 @@
 #include "gl/buffer.h"
 #include "gl/framebuffer.h"
 #include "passes/accumulate_pass.h"
+#include "passes/bricks.h"
 #include "passes/display_pass.h"
+#include "passes/emitters.h"
 #include "passes/filter_pass.h"
 #include "passes/pick_pass.h"
 #include "passes/temporal_pass.h"
@@ -58,6 +60,7 @@ struct Renderer::Parts {
     // A program is built when first used: a run pays for the passes it needs.
     double compile_ms = 0;
     std::map<TraceFeatures, TracePass> trace;
+    std::optional<EmittersPass> emitters;
     std::optional<TemporalPass> temporal[2][2];  // [blend][moments]
     std::optional<FilterPass> filter[2];         // [gaussian]
     std::optional<AccumulatePass> accumulate;
@@ -110,6 +113,7 @@ struct Renderer::Parts {
         const FrameTargets& frame = targets->frames[set];
         return {radiance, frame.position, frame.normal, frame.material};
     }
+    void update_emitters(const Simulation& simulation);
     const gl::Texture& accumulate_exact();
     const gl::Texture& reproject_and_filter(const Simulation& simulation);
     void show(const gl::Framebuffer& target, bool raw);
@@ -132,11 +136,14 @@ TraceFeatures Renderer::Parts::features(const Simulation& simulation) const {
         if (clear) features.rough |= m.roughness * m.roughness >= ALPHA_SMOOTH;
         if (!clear) features.coated |= m.ior != 1 || m.metallic > 0;
         features.clear |= clear;
+        const glm::vec3 shines = id == MATERIAL_WATER ? glm::vec3(0) : m.emission;  // as in lib/emitter_tree
+        features.emitters |= std::max({shines.x, shines.y, shines.z}) > 0;
     }
-    const glm::vec3 sun = settings.sun_irradiance;
     features.skip = settings.traversal == Traversal::Distance;
-    features.sun = settings.light_sampling != LightSampling::None && std::max({sun.x, sun.y, sun.z}) > 0;
-    features.sky = settings.light_sampling == LightSampling::SunAndSky;
+    features.sun = settings.light_sampling != LightSampling::None && block.sun_radiance.w > 0;
+    features.sky = settings.light_sampling == LightSampling::All;
+    features.emitters &= settings.light_sampling != LightSampling::None;
+    features.clear_sky = settings.sky_model == SkyModel::Preetham;
     features.smooth_water = settings.smooth_water && may_contain(simulation, MATERIAL_WATER);
     features.count = counts_paths(settings.view);
     return features;
@@ -187,6 +194,14 @@ void Renderer::Parts::upload_frame(const Simulation& simulation, const Settings&
     frame_block.upload(std::span(&block, 1));
     frame_block.bind_uniform(BINDING_FRAME);
     material_block.bind_uniform(BINDING_MATERIALS);
+}
+
+void Renderer::Parts::update_emitters(const Simulation& simulation) {
+    built(emitters, bricks_of(simulation.size_vox()))
+        .record({.cells = simulation.cells(),
+                 .brick_changed = simulation.brick_changed(),
+                 .version = static_cast<std::uint32_t>(simulation.version())},
+                timers);
 }
 
 const gl::Texture& Renderer::Parts::accumulate_exact() {
@@ -251,12 +266,14 @@ const gl::Texture& Renderer::render(const Simulation& simulation, const Settings
     p.current = 1 - p.current;
 
     p.views.prepare(settings, *p.targets, p.has_history);
-    p.trace_pass(p.features(simulation))
-        .record({.cells = simulation.cells(),
-                 .brick_distance = simulation.brick_distance(),
-                 .albedo_table = p.albedo,
-                 .rejected = p.rejected},
-                {.target = p.views.trace_target(*p.targets, p.current)}, p.timers);
+    const TraceFeatures features = p.features(simulation);
+    if (features.emitters) p.update_emitters(simulation);
+    p.trace_pass(features).record({.cells = simulation.cells(),
+                                   .brick_distance = simulation.brick_distance(),
+                                   .albedo_table = p.albedo,
+                                   .emitters = features.emitters ? &*p.emitters : nullptr,
+                                   .rejected = p.rejected},
+                                  {.target = p.views.trace_target(*p.targets, p.current)}, p.timers);
     p.shown =
         settings.history == History::Exact ? &p.accumulate_exact() : &p.reproject_and_filter(simulation);
     p.show(p.targets->picture_target, false);
@@ -266,6 +283,11 @@ const gl::Texture& Renderer::render(const Simulation& simulation, const Settings
     ++p.frame_index;
     p.frames_kept = std::min<std::uint64_t>(p.frames_kept + 1, FRAMES_KEPT_MAX);
     return p.targets->picture;
+}
+
+void Renderer::world_replaced() {
+    parts_->emitters.reset();
+    reset_history();
 }
 
 void Renderer::reset_history() {
@@ -370,6 +392,7 @@ std::vector<std::string> Renderer::poll_reload() {
         poll(parts_->pick[i]);
     }
     poll(parts_->accumulate);
+    if (parts_->emitters) parts_->emitters->poll_reload(messages);
     return messages;
 }
 

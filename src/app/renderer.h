@@ -37,6 +37,8 @@ class Renderer {
 
     // History starts anew with the next frame.
     void reset_history();
+    // Another simulation, of the same scene, comes with the next frame.
+    void world_replaced();
 
     // Of the next frame: its random numbers follow from it. For tests of counter wrap.
     void set_frame_index(std::uint64_t index);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "measure/light_table.h"
 #include "measure/water_scenarios.h"
 
 namespace tarn {
@@ -90,6 +91,30 @@ void water_options(CLI::App* water, Arguments& arguments) {
     water->footer(footer);
 }
 
+void light_options(CLI::App* light, Arguments& arguments) {
+    light->add_option("--scenario", arguments.scenarios, "Scenarios below, separated by commas (all)");
+    light
+        ->add_option("--rounds", arguments.rounds,
+                     "Independent pictures by each strategy, taken in turn (12)")
+        ->check(CLI::Range(2, 100000));
+    light->add_option("--spp", arguments.spp_of_round, "Samples per pixel of a round (8)")
+        ->check(CLI::Range(1, 100000));
+    light
+        ->add_option("--set", arguments.set, "key=value over all strategies, repeatable; see `tarn settings`")
+        ->allow_extra_args(false);
+    light->add_option("--out", arguments.out, "Folder for light.csv; made where it is missing");
+    std::string footer = "Scenarios:\n";
+    for (const LightScenario& scenario : light_scenarios())
+        footer += fmt::format("  {:<9} {}\n", scenario.name, scenario.what);
+    footer +=
+        "off_by: distance of a mean from the first strategy's, in standard errors. equal_time_gain: variance "
+        "times\n"
+        "time of the first strategy over this one's. Exit code 1: a mean is off by more than 4, or a sample "
+        "was not\n"
+        "finite.";
+    light->footer(footer);
+}
+
 // CLI11 spreads its help over lines; an error is one.
 std::string one_line(std::string text) {
     std::replace(text.begin(), text.end(), '\n', ' ');
@@ -166,13 +191,17 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
         "water", "Measure the water: levelling, rest, pressure, roundness, sand, mass at every tick");
     water_options(water, arguments);
 
+    CLI::App* light = app.add_subcommand(
+        "light", "Measure the ways of finding light: means, variances and times of strategies side by side");
+    light_options(light, arguments);
+
     app.add_subcommand("scenes", "List the built-in scenes");
     app.add_subcommand("settings", "List every setting: key, range, default, help");
     app.add_subcommand("doctor", "Check the driver and run a self-test; exit code 0 or 1");
 
     const auto named = [&](const CLI::App* command) { return command->check_name(argv[1]); };
     if (argc > 1 && *argv[1] != '-' && app.get_subcommands(named).empty())
-        fail("{}: no such command; allowed: play, render, simulate, water, scenes, settings, doctor",
+        fail("{}: no such command; allowed: play, render, simulate, water, light, scenes, settings, doctor",
              argv[1]);
     try {
         app.parse(argc, argv);

@@ -23,8 +23,9 @@ struct Arguments {
     bool exact = false;
     int spp = 64;
     std::optional<std::uint32_t> seed;
-    // Of `water`: comma-separated names; empty means all of them.
+    // Of `water` and `light`: comma-separated names; empty means all of them.
     std::string tiers, scenarios;
+    int rounds = 12, spp_of_round = 8;  // of `light`
     int seeds = 1;
     std::vector<int> sides_vox{64, 128, 256};  // of --speed
     bool reference = false, awake = false, speed = false;

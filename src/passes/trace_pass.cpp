@@ -1,5 +1,6 @@
 #include "passes/trace_pass.h"
 
+#include "core/error.h"
 #include "shared/bindings.h"
 
 namespace tarn {
@@ -21,6 +22,8 @@ gl::ProgramDesc describe(const TraceFeatures& features) {
     define(features.coated, "TRACE_COATED");
     define(features.sun, "TRACE_SUN");
     define(features.sky, "TRACE_SKY");
+    define(features.emitters, "TRACE_EMITTERS");
+    define(features.clear_sky, "TRACE_PREETHAM");
     define(features.smooth_water, "TRACE_SMOOTH_WATER");
     define(features.count, "TRACE_COUNT");
     return desc;
@@ -35,6 +38,10 @@ void TracePass::record(const Inputs& inputs, const Outputs& outputs, gl::Timers&
     inputs.cells.bind(BINDING_CELLS);
     if (features_.skip) inputs.brick_distance.bind(BINDING_BRICK_DISTANCE);
     if (features_.coated) inputs.albedo_table.bind(BINDING_ALBEDO_TABLE);
+    if (features_.emitters) {
+        CHECK(inputs.emitters != nullptr);
+        inputs.emitters->bind();
+    }
     inputs.rejected.bind_storage(0);
     program_.use();
     outputs.target.draw_fullscreen();

@@ -213,7 +213,12 @@ TEST_F(ExtremesLightTest, RadianceFromAMillionthToAMillionScales) {
         furnace.settings.max_bounces = 7;
         const Picture box = mean_of(furnace, 2, {16, 16});
         EXPECT_LT(box.worst(scale * (1 - std::pow(0.5, 8))), 3e-7 * scale);
-        EXPECT_EQ(sky.rejected + sun.rejected + box.rejected, 0u);
+        // The walls sampled as lights.
+        furnace.settings.light_sampling = LightSampling::Lights;
+        const Picture sampled = mean_of(furnace, 32, {32, 32});
+        EXPECT_NEAR(sampled.mean().x / scale, 1 - std::pow(0.5, 8), 4 * sampled.standard_error() / scale);
+        EXPECT_LT(sampled.standard_error(), 0.01 * scale);
+        EXPECT_EQ(sky.rejected + sun.rejected + box.rejected + sampled.rejected, 0u);
     }
 }
 

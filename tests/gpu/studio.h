@@ -63,7 +63,7 @@ inline Scene sunlit_slabs() {
                   {"box": {"min": [4, 11, 10], "max": [10, 12, 15], "material": "dirt"}},
                   {"box": {"min": [13, 15, 6], "max": [16, 16, 18], "material": "dirt"}}]})");
     scene.settings.max_bounces = 1;
-    scene.settings.light_sampling = LightSampling::Sun;
+    scene.settings.light_sampling = LightSampling::Lights;
     return scene;
 }
 
