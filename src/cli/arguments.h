@@ -35,7 +35,8 @@ struct Arguments {
 // allowed.
 std::optional<Arguments> parse_arguments(int argc, char** argv);
 
-// The scene that the arguments name, with their settings: preset, scene, --set, --camera, --view, in this order.
+// The scene that the arguments name, with their settings: preset, scene, --set, --camera, --view, in this
+// order.
 Scene scene_of(const Arguments& arguments);
 
 }  // namespace tarn
