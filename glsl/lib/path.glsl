@@ -96,7 +96,7 @@ vec3 vertex_world(Vertex v, vec3 local) {
 void vertex_eval(Vertex v, vec3 wi, out vec3 f_cos, out float pdf) {
 #ifdef TRACE_ROUGH
     if (v.surface.transmissive)
-        dielectric_eval_reflection(v.surface, v.wo, wi, f_cos, pdf);
+        dielectric_eval(v.surface, v.wo, wi, f_cos, pdf);
     else
 #endif
         opaque_eval(v.surface, v.wo, wi, option(OPTION_UNIFORM_DIFFUSE), f_cos, pdf);
@@ -129,10 +129,12 @@ vec3 sampled_sun(Vertex v, bool through_water) {
 #endif
     vec3 f_cos;
     float pdf;
-    vertex_eval(v, vertex_local(v, dir), f_cos, pdf);
+    vec3 wi = vertex_local(v, dir);
+    vertex_eval(v, wi, f_cos, pdf);
     if (in_air && frame.sun_irradiance.w > 0.0) weight *= power_heuristic(1.0 / frame.sun_irradiance.w, pdf);
     vec3 light = f_cos * weight;
-    bool asked = (in_air || through_water) && max_component(light) > 0.0;
+    // The ray leaves on this side: what a rough interface passes to the other is left to chance.
+    bool asked = (in_air || through_water) && wi.z > 0.0 && max_component(light) > 0.0;
     RayStart ray = v.start;
     bool seen = false;
 #ifdef TRACE_CLEAR
