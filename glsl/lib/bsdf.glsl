@@ -3,6 +3,9 @@
 #include "lib/ggx.glsl"
 #include "lib/materials.glsl"
 
+// Nearer to grazing than this nothing scatters: half vectors have no digits left.
+const float COS_GRAZING = 1e-12;
+
 #ifdef TRACE_COATED
 // E(cos, alpha, eta) of the GGX interface of a dielectric: r; its cosine-weighted mean Eavg: g. Axes: sqrt(cos),
 // roughness, x of ALBEDO_ETA_RANGE (src/reference/albedo.h makes it).
@@ -110,10 +113,10 @@ void coated_eval(Surface s, Coat coat, vec3 wo, vec3 wi, bool uniform_diffuse, o
     if (p > 0.0 && !is_smooth(s)) {
         vec3 h = normalize(wo + wi);
         float d = ggx_d(h, s.alpha);
-        f_cos += opaque_fresnel(s, coat, dot(wo, h)) * (d * ggx_g2(wo, wi, s.alpha) / (4.0 * wo.z));
-        pdf += p * ggx_g1(wo, s.alpha) * d / (4.0 * wo.z);
+        f_cos += opaque_fresnel(s, coat, dot(wo, h)) * (0.25 * d * ggx_g2_over_cos(wo, wi, s.alpha));
+        pdf += p * 0.25 * d * ggx_g1_over_cos(wo, s.alpha);
     }
-    if (wi.z <= 0.0 || wo.z <= 0.0) {
+    if (min(wi.z, wo.z) < COS_GRAZING) {
         f_cos = vec3(0.0);
         pdf = 0.0;
     }
@@ -173,10 +176,11 @@ void dielectric_eval_at(Surface s, vec3 wo, vec3 wi, vec3 h, out vec3 f_cos, out
     // By Snell's law eta |cos_i| - cos_o = (eta^2 - 1) / (eta |cos_i| + cos_o): no cancellation for eta near 1.
     float stretch = (cos_o - s.eta * cos_i) / ((s.eta - 1.0) * (s.eta + 1.0));
     float facets = reflects ? 0.25 * f : (1.0 - f) * cos_o * -cos_i * stretch * stretch;
-    facets *= ggx_d(h, s.alpha) / wo.z;
-    bool valid = wo.z > 0.0 && cos_o > 0.0 && (reflects ? cos_i > 0.0 : wi.z < 0.0 && cos_i < 0.0) && s.eta != 1.0;
-    f_cos = vec3(valid ? facets * ggx_g2(wo, wi, s.alpha) : 0.0);
-    pdf = valid ? facets * ggx_g1(wo, s.alpha) * (reflects ? 1.0 : s.eta * s.eta) : 0.0;
+    facets *= ggx_d(h, s.alpha);
+    bool valid = min(wo.z, abs(wi.z)) >= COS_GRAZING && cos_o > 0.0 && (reflects ? cos_i > 0.0 : cos_i < 0.0) &&
+                 s.eta != 1.0 && !is_smooth(s);
+    f_cos = vec3(valid ? facets * ggx_g2_over_cos(wo, wi, s.alpha) : 0.0);
+    pdf = valid ? facets * ggx_g1_over_cos(wo, s.alpha) * (reflects ? 1.0 : s.eta * s.eta) : 0.0;
 }
 
 // The same for given directions; wi on either side.
@@ -210,8 +214,7 @@ BsdfSample dielectric_sample(Surface s, vec3 wo, vec3 u) {
         vec3 f_cos;
         dielectric_eval_at(s, wo, result.wi, h, f_cos, result.pdf);
         // f cos / density without D, which is large for small alpha.
-        bool wrong_side = reflected ? result.wi.z <= 0.0 : result.wi.z >= 0.0;
-        result.weight *= wrong_side ? 0.0 : ggx_g2(wo, result.wi, s.alpha) / ggx_g1(wo, s.alpha);
+        result.weight *= result.pdf > 0.0 ? ggx_g2_over_g1(wo, result.wi, s.alpha) : 0.0;
     }
 #endif
     return result;
