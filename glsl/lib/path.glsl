@@ -1,8 +1,13 @@
 // The path tracer: one path from the eye, its light, and the first surface it meets. Options, so that what a scene
 // does not contain costs nothing: TRACE_CLEAR (water or glass), TRACE_ROUGH (some of it rough), TRACE_COATED (opaque
 // materials with an interface, metals), TRACE_SUN, TRACE_SKY and TRACE_EMITTERS (light sampling), TRACE_SMOOTH_WATER
-// (water's levels shaded as one surface; needs TRACE_CLEAR), TRACE_PREETHAM (the sky).
+// (water's levels shaded as one surface; needs TRACE_CLEAR), TRACE_PREETHAM (the sky), TRACE_COUNT (bounces and steps,
+// for views).
 #include "lib/light_sampling.glsl"
+
+#ifdef TRACE_COUNT
+int path_bounces = 0;  // of the last path: scatterings after which it went on
+#endif
 
 // How much of the sun's disc counts when the path runs into it: what light sampling has found already must not
 // count twice.
@@ -56,6 +61,9 @@ vec3 trace_path(vec3 eye_vox, vec3 dir, out FirstSurface first) {
     int diffuse_bounces = 0;
     for (int bounce = 0;; ++bounce) {
         RayHit hit = trace_ray(ray, dir, t_max);
+#ifdef TRACE_COUNT
+        path_bounces = bounce;
+#endif
 #ifdef TRACE_CLEAR
         throughput *= exp(-absorption * hit.t);
 #endif

@@ -34,12 +34,13 @@ FrameBlock make_frame_block(const FrameInputs& in) {
     const Settings& s = in.settings;
     FrameBlock block;
     const CameraBasis basis = camera_basis(s.camera_yaw_deg, s.camera_pitch_deg);
-    const float half = std::tan(glm::radians(s.camera_fov_deg) / 2);
-    const float aspect = static_cast<float>(in.shown_px.x) / static_cast<float>(in.shown_px.y);
+    // In double precision: near 90 degrees a tangent enlarges the rounding of its angle by its square.
+    const double half = std::tan(glm::radians(static_cast<double>(s.camera_fov_deg)) / 2);
+    const double aspect = static_cast<double>(in.shown_px.x) / in.shown_px.y;
     block.camera_position_vox = glm::vec4(s.camera_position_vox, 0);
     block.camera_dir = glm::vec4(basis.dir, 0);
-    block.camera_right = glm::vec4(basis.right * (half * aspect), 0);
-    block.camera_up = glm::vec4(basis.up * half, 0);
+    block.camera_right = glm::vec4(basis.right * static_cast<float>(half * aspect), 0);
+    block.camera_up = glm::vec4(basis.up * static_cast<float>(half), 0);
     set_previous_eye(block, block);
     block.world_size_vox = glm::ivec4(in.world_size_vox, 0);
     block.counters = {in.frame_index, in.seed, static_cast<std::uint32_t>(s.samples_per_pixel),

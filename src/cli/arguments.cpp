@@ -55,6 +55,14 @@ void apply_camera(const std::string& text, Settings& settings) {
     }
 }
 
+void apply_view(const std::string& text, Settings& settings) {
+    const auto names = choice_names<ViewKind>();
+    const auto found = std::find(names.begin(), names.end(), text);
+    if (found == names.end())
+        fail("--view {}: no such view; allowed: one of {}", text, fmt::join(names, ", "));
+    settings.view = static_cast<ViewKind>(found - names.begin());
+}
+
 void water_options(CLI::App* water, Arguments& arguments) {
     water->add_option("--tier", arguments.tiers,
                       fmt::format("Tiers of the water, separated by commas (all): {}",
@@ -163,6 +171,9 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
     render->add_option("--spp", arguments.spp, "Samples per pixel of --exact (64)")
         ->check(CLI::Range(1, 100000000))
         ->needs(exact);
+    render->add_option("--view", arguments.view,
+                       fmt::format("In place of the picture: {} (PNG: false colours, EXR: raw values)",
+                                   fmt::join(choice_names<ViewKind>(), ", ")));
     render->add_option("--camera", arguments.camera, "x,y,z,yaw,pitch[,fov] in place of the scene's");
     render->add_option("--stats", arguments.stats, "Write counts, times and settings as JSON");
 
@@ -218,12 +229,14 @@ Scene scene_of(const Arguments& arguments) {
     Settings trial = base;
     for (const std::string& assignment : arguments.set) set_assignment(trial, assignment);
     if (!arguments.camera.empty()) apply_camera(arguments.camera, trial);
+    if (arguments.view) apply_view(*arguments.view, trial);
     if (arguments.exact && trial.history != History::Exact)
         fail("--set: --exact needs history=exact; render without --exact for another");
 
     Scene scene = load_scene(arguments.scene, base, arguments.seed);
     for (const std::string& assignment : arguments.set) set_assignment(scene.settings, assignment);
     if (!arguments.camera.empty()) apply_camera(arguments.camera, scene.settings);
+    if (arguments.view) apply_view(*arguments.view, scene.settings);
     return scene;
 }
 

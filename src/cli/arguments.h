@@ -16,7 +16,7 @@ struct Arguments {
     std::string scene = "lake";
     glm::ivec2 size_px{0};  // 0: chosen by the command
     std::string out, stats, cells, amounts, camera;
-    std::optional<std::string> quality;
+    std::optional<std::string> quality, view;
     std::vector<std::string> set;
     std::uint64_t ticks = 0;
     int frames = 1;
@@ -35,7 +35,7 @@ struct Arguments {
 // allowed.
 std::optional<Arguments> parse_arguments(int argc, char** argv);
 
-// The scene that the arguments name, with their settings: preset, scene, --set, --camera, in this order.
+// The scene that the arguments name, with their settings: preset, scene, --set, --camera, --view, in this order.
 Scene scene_of(const Arguments& arguments);
 
 }  // namespace tarn

@@ -22,6 +22,8 @@ constexpr const char* history_names[] = {"none", "blend", "count", "exact"};
 constexpr const char* filter_names[] = {"none", "gaussian", "edge_aware"};
 constexpr const char* sky_model_names[] = {"gradient", "preetham"};
 constexpr const char* tone_map_names[] = {"filmic", "linear"};
+constexpr const char* view_kind_names[] = {"picture", "albedo", "normal",  "depth",   "material",
+                                           "bounces", "steps",  "history", "variance"};
 
 // What each quality sets: every one names the same keys, so that the last chosen counts alone. baseline is
 // the method of the 2023 course work (BRIEF): every voxel stepped through, uniform diffuse directions, no
@@ -144,6 +146,10 @@ std::span<const char* const> choice_names<SkyModel>() {
 template <>
 std::span<const char* const> choice_names<ToneMap>() {
     return tone_map_names;
+}
+template <>
+std::span<const char* const> choice_names<ViewKind>() {
+    return view_kind_names;
 }
 
 std::span<const SettingInfo> setting_infos() {

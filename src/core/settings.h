@@ -19,6 +19,7 @@ enum class History { None, Blend, Count, Exact };
 enum class Filter { None, Gaussian, EdgeAware };
 enum class SkyModel { Gradient, Preetham };
 enum class ToneMap { Filmic, Linear };
+enum class ViewKind { Picture, Albedo, Normal, Depth, Material, Bounces, Steps, History, Variance };
 
 // Names of an enum's values in order, as the command line and JSON spell them.
 template <typename Enum>

@@ -86,6 +86,10 @@
           "Radiance of the gradient at and below the horizon.")                                              \
     REAL(exposure_ev, 0, -20, 20, DISPLAY, NONE, "Exposure in stops.")                                       \
     CHOICE(ToneMap, tone_map, Filmic, DISPLAY, NONE, "filmic: soft highlights; linear: clipped at white.")   \
+    CHOICE(ViewKind, view, Picture, DISPLAY, NONE,                                                           \
+           "What is shown (V). Of the first surface: albedo, normal, depth, material. Of the last frame's "  \
+           "paths: bounces and steps through the world, rays to the sun included. Of what is averaged: "     \
+           "history (frames kept) and variance (of the mean's luminance, before the filter).")               \
     BOOL(overlay, true, DISPLAY, NONE, "Show times, ticks and counts in a corner.")                          \
     BOOL(vsync, true, DISPLAY, NONE, "Wait for the display between frames.")                                 \
     REAL(fly_speed_vox_s, 24, 0.1, 10000, DISPLAY, NONE,                                                     \

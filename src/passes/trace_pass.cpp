@@ -25,6 +25,7 @@ gl::ProgramDesc describe(const TraceFeatures& features) {
     define(features.emitters, "TRACE_EMITTERS");
     define(features.clear_sky, "TRACE_PREETHAM");
     define(features.smooth_water, "TRACE_SMOOTH_WATER");
+    define(features.count, "TRACE_COUNT");
     return desc;
 }
 

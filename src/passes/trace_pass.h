@@ -22,6 +22,7 @@ struct TraceFeatures {
     bool emitters = false;      // emissive voxels, sampled
     bool clear_sky = false;     // of Preetham, Shirley & Smits; otherwise two colours
     bool smooth_water = false;  // levels of neighbouring voxels shaded as one surface; with clear
+    bool count = false;         // bounces and steps, for views
     auto operator<=>(const TraceFeatures&) const = default;
 };
 
@@ -36,7 +37,7 @@ class TracePass {
         const gl::Buffer& rejected;    // one uint, counted up
     };
     struct Outputs {
-        const gl::Framebuffer& target;  // radiance, position, normal, material
+        const gl::Framebuffer& target;  // radiance, position, normal, material; with count: counts
     };
 
     explicit TracePass(const TraceFeatures& features);

@@ -24,6 +24,10 @@ class BadArguments(Case):
         self.refuse([*RENDER, "--out", "a.png", "--out", "b.png"], "--out")
         self.refuse([*RENDER, "--out", "a.png", "--spp", "3"], "--spp", "--exact")
         self.refuse([*RENDER, "--out", "a.png", "--exact", "--frames", "3"], "--exact", "--frames")
+        for view in ("x-ray", "Depth", "3", "depth,normal"):
+            self.refuse([*RENDER, "--out", "a.png", f"--view={view}"], "--view", "picture, albedo, normal, depth")
+        self.refuse([*RENDER, "--out", "a.png", "--view="], "--view", "missing")
+        self.refuse([*SIMULATE, "--view", "depth"], "--view")
         self.refuse([*RENDER, "--out", "a.png", "--exact", "--quality", "fast"], "--quality fast", "exact")
 
     def test_numbers(self):

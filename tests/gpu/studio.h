@@ -67,6 +67,15 @@ inline Scene sunlit_slabs() {
     return scene;
 }
 
+// a (1 - w) + b w
+inline Picture mixed(const Picture& a, const Picture& b, double w) {
+    Picture result = a;
+    for (std::size_t i = 0; i < a.image.pixels.size(); ++i)
+        result.image.pixels[i] =
+            static_cast<float>(a.image.pixels[i] + w * (double{b.image.pixels[i]} - a.image.pixels[i]));
+    return result;
+}
+
 inline bool all_finite(const Picture& picture) {
     return std::ranges::all_of(picture.image.pixels, [](float p) { return std::isfinite(p); });
 }
