@@ -167,7 +167,7 @@ Scene ball(std::uint8_t material, float roughness) {
 
 TEST_F(BsdfEnergyTest, AWhiteMetalBallVanishesInAWhiteSky) {
     for (const float roughness : {0.0f, 0.04f, 0.2f, 0.5f, 0.7f, 1.0f}) {
-        for (const LightSampling sampling : {LightSampling::None, LightSampling::SunAndSky}) {
+        for (const LightSampling sampling : {LightSampling::None, LightSampling::All}) {
             const Picture picture =
                 picture_of(ball(MATERIAL_METAL, roughness), 96, {48, 48}, [&](Settings& s) {
                     s.roulette_after = 1024;
