@@ -179,9 +179,9 @@ TEST_F(ViewTest, RaysToTheSunCountAmongTheSteps) {
     scene.materials[MATERIAL_WALL].base_color = glm::vec3(1e-7f);
     scene.settings.roulette_after = 0;
     EXPECT_EQ(steps_with(LightSampling::None), 12);
-    EXPECT_EQ(steps_with(LightSampling::Sun), 12 + 15);
+    EXPECT_EQ(steps_with(LightSampling::Lights), 12 + 15);
     scene.materials[MATERIAL_WALL].base_color = glm::vec3(0);
-    EXPECT_EQ(steps_with(LightSampling::Sun), 12) << "not asked for";
+    EXPECT_EQ(steps_with(LightSampling::Lights), 12) << "not asked for";
 }
 
 TEST_F(ViewTest, HistoryCountsFramesAndRestartsAfterAJump) {
