@@ -3,10 +3,17 @@
 #include "lib/ggx.glsl"
 #include "lib/materials.glsl"
 
+// Nearer to grazing than this nothing scatters: half vectors have no digits left.
+const float COS_GRAZING = 1e-12;
+
 #ifdef TRACE_COATED
 // E(cos, alpha, eta) of the GGX interface of a dielectric: r; its cosine-weighted mean Eavg: g. Axes: sqrt(cos),
 // roughness, x of ALBEDO_ETA_RANGE (src/reference/albedo.h makes it).
 layout(binding = BINDING_ALBEDO_TABLE) uniform sampler3D albedo_table;
+
+// Ess(cos, alpha): the part that a GGX interface of reflectance 1 reflects after one scattering. Axes: sqrt(cos)
+// (1 + roughness) / (sqrt(cos) + roughness), roughness.
+layout(binding = BINDING_METAL_ALBEDO_TABLE) uniform sampler2D metal_albedo_table;
 #endif
 
 struct Surface {
@@ -59,48 +66,67 @@ vec2 albedo_lookup(float cos_w, float alpha, float eta) {
     return albedo;
 }
 
-// Reflectance of the interface at one microfacet: dielectric and metal blended.
-vec3 opaque_fresnel(Surface s, float cos_h) {
-    float dielectric = s.coated ? fresnel_dielectric(cos_h, s.eta) : 0.0;
-    return mix(vec3(dielectric), fresnel_schlick(cos_h, s.base), s.metallic);
+float metal_albedo_lookup(float cos_w, float alpha) {
+    vec2 size = vec2(textureSize(metal_albedo_table, 0));
+    float root = sqrt(clamp(cos_w, 0.0, 1.0));
+    float roughness = sqrt(max(alpha, ALPHA_SMOOTH));
+    vec2 at = vec2(root * (1.0 + roughness) / (root + roughness), roughness);
+    float albedo = textureLod(metal_albedo_table, (clamp(at, 0.0, 1.0) * (size - 1.0) + 0.5) / size, 0.0).r;
+    return alpha < ALPHA_SMOOTH ? 1.0 : albedo;
 }
 
-// Value and density of a direction, given E of the direction to the eye (albedo_o) and the probability of sampling
-// the interface. The base is Lambert, less what the interface reflects of it (Kelemen & Szirmay-Kalos 2001).
-void coated_eval(Surface s, vec3 wo, vec3 wi, bool uniform_diffuse, vec2 albedo_o, float p, out vec3 f_cos,
-                 out float pdf) {
+// What scattering at an opaque surface needs to know of wo alone.
+struct Coat {
+    vec2 albedo;        // E(wo), Eavg of the dielectric interface; 0 where there is none
+    vec3 metal_gain;    // light scattered more than once between a metal's facets, as a factor on what scatters once
+    float probability;  // of sampling the interface rather than the base
+};
+
+Coat coat_towards(Surface s, float cos_o) {
+    Coat coat;
+    coat.albedo = s.coated ? albedo_lookup(cos_o, s.alpha, s.eta) : vec2(0.0);
+    // Turquin 2019, eq. 16. Of wo only: the furnace is kept, reciprocity is not.
+    coat.metal_gain = 1.0 + s.base * (1.0 / metal_albedo_lookup(cos_o, s.alpha) - 1.0);
+    float mirror = mix(coat.albedo.r, max_component(s.base), s.metallic);
+    float diffuse = (1.0 - s.metallic) * max_component(s.base) * (1.0 - coat.albedo.r);
+    coat.probability = mirror + diffuse > 0.0 ? mirror / (mirror + diffuse) : 0.0;
+    return coat;
+}
+
+// Reflectance of the interface at one microfacet: dielectric and metal blended.
+vec3 opaque_fresnel(Surface s, Coat coat, float cos_h) {
+    float dielectric = s.coated ? fresnel_dielectric(cos_h, s.eta) : 0.0;
+    return mix(vec3(dielectric), fresnel_schlick(cos_h, s.base) * coat.metal_gain, s.metallic);
+}
+
+// Value and density of a direction. The base is Lambert, less what the interface reflects of it (Kelemen &
+// Szirmay-Kalos 2001).
+void coated_eval(Surface s, Coat coat, vec3 wo, vec3 wi, bool uniform_diffuse, out vec3 f_cos, out float pdf) {
+    float p = coat.probability;
     float room = 1.0;
-    if (s.coated)
-        room = (1.0 - albedo_o.r) * (1.0 - albedo_lookup(wi.z, s.alpha, s.eta).r) / max(1e-4, 1.0 - albedo_o.g);
+    if (s.coated) {
+        float albedo_i = albedo_lookup(wi.z, s.alpha, s.eta).r;
+        room = (1.0 - coat.albedo.r) * (1.0 - albedo_i) / max(1e-4, 1.0 - coat.albedo.g);
+    }
     f_cos = s.base * ((1.0 - s.metallic) * room * wi.z * INV_PI);
     pdf = (1.0 - p) * (uniform_diffuse ? 0.5 * INV_PI : wi.z * INV_PI);
     if (p > 0.0 && !is_smooth(s)) {
         vec3 h = normalize(wo + wi);
         float d = ggx_d(h, s.alpha);
-        f_cos += opaque_fresnel(s, dot(wo, h)) * (d * ggx_g2(wo, wi, s.alpha) / (4.0 * wo.z));
-        pdf += p * ggx_g1(wo, s.alpha) * d / (4.0 * wo.z);
+        f_cos += opaque_fresnel(s, coat, dot(wo, h)) * (0.25 * d * ggx_g2_over_cos(wo, wi, s.alpha));
+        pdf += p * 0.25 * d * ggx_g1_over_cos(wo, s.alpha);
     }
-    if (wi.z <= 0.0 || wo.z <= 0.0) {
+    if (min(wi.z, wo.z) < COS_GRAZING) {
         f_cos = vec3(0.0);
         pdf = 0.0;
     }
 }
-
-// Probability of sampling the interface rather than the base.
-float interface_probability(Surface s, float albedo_o) {
-    float mirror = mix(albedo_o, max_component(s.base), s.metallic);
-    float diffuse = (1.0 - s.metallic) * max_component(s.base) * (1.0 - albedo_o);
-    return mirror + diffuse > 0.0 ? mirror / (mirror + diffuse) : 0.0;
-}
-
-vec2 albedo_towards(Surface s, float cos_w) { return s.coated ? albedo_lookup(cos_w, s.alpha, s.eta) : vec2(0.0); }
 #endif
 
 // f cos and density of an opaque surface for a given wi; the delta part of a smooth interface is left out.
 void opaque_eval(Surface s, vec3 wo, vec3 wi, bool uniform_diffuse, out vec3 f_cos, out float pdf) {
 #ifdef TRACE_COATED
-    vec2 albedo_o = albedo_towards(s, wo.z);
-    coated_eval(s, wo, wi, uniform_diffuse, albedo_o, interface_probability(s, albedo_o.r), f_cos, pdf);
+    coated_eval(s, coat_towards(s, wo.z), wo, wi, uniform_diffuse, f_cos, pdf);
 #else
     float cos_i = max(0.0, wi.z);
     f_cos = s.base * (cos_i * INV_PI);
@@ -120,25 +146,49 @@ BsdfSample opaque_sample(Surface s, vec3 wo, vec3 u, bool uniform_diffuse) {
     result.pdf = uniform_diffuse ? 0.5 * INV_PI : z * INV_PI;
     result.diffuse = true;
 #ifdef TRACE_COATED
-    vec2 albedo_o = albedo_towards(s, wo.z);
-    float p = interface_probability(s, albedo_o.r);
-    if (p > 0.0) {
-        bool mirror = u.z < p;
+    Coat coat = coat_towards(s, wo.z);
+    if (coat.probability > 0.0) {
+        bool mirror = u.z < coat.probability;
         result.diffuse = !mirror || s.alpha > ALPHA_GLOSSY;
         if (mirror && is_smooth(s)) {
             result.wi = vec3(-wo.xy, wo.z);
-            result.weight = opaque_fresnel(s, wo.z) / p;
+            result.weight = opaque_fresnel(s, coat, wo.z) / coat.probability;
             result.pdf = 0.0;
         } else {
             if (mirror) result.wi = reflect(-wo, ggx_sample_visible_normal(wo, s.alpha, u.xy));
             vec3 f_cos;
-            coated_eval(s, wo, result.wi, uniform_diffuse, albedo_o, p, f_cos, result.pdf);
+            coated_eval(s, coat, wo, result.wi, uniform_diffuse, f_cos, result.pdf);
             result.weight = result.pdf > 0.0 ? f_cos / result.pdf : vec3(0.0);
         }
     }
 #endif
     return result;
 }
+
+#ifdef TRACE_ROUGH
+// f cos and density of a rough dielectric for a pair of directions and the facet normal h (h.z > 0) that turns one into
+// the other (Walter et al. 2007, eq. 20 and 21). Transmitted radiance is scaled by (index here / index beyond)^2.
+void dielectric_eval_at(Surface s, vec3 wo, vec3 wi, vec3 h, out vec3 f_cos, out float pdf) {
+    bool reflects = wi.z > 0.0;
+    float cos_o = dot(wo, h);
+    float cos_i = dot(wi, h);
+    float f = fresnel_dielectric(clamp(cos_o, 0.0, 1.0), s.eta);
+    // By Snell's law eta |cos_i| - cos_o = (eta^2 - 1) / (eta |cos_i| + cos_o): no cancellation for eta near 1.
+    float stretch = (cos_o - s.eta * cos_i) / ((s.eta - 1.0) * (s.eta + 1.0));
+    float facets = reflects ? 0.25 * f : (1.0 - f) * cos_o * -cos_i * stretch * stretch;
+    facets *= ggx_d(h, s.alpha);
+    bool valid = min(wo.z, abs(wi.z)) >= COS_GRAZING && cos_o > 0.0 && (reflects ? cos_i > 0.0 : cos_i < 0.0) &&
+                 s.eta != 1.0 && !is_smooth(s);
+    f_cos = vec3(valid ? facets * ggx_g2_over_cos(wo, wi, s.alpha) : 0.0);
+    pdf = valid ? facets * ggx_g1_over_cos(wo, s.alpha) * (reflects ? 1.0 : s.eta * s.eta) : 0.0;
+}
+
+// The same for given directions; wi on either side.
+void dielectric_eval(Surface s, vec3 wo, vec3 wi, out vec3 f_cos, out float pdf) {
+    vec3 h = normalize(wo + (wi.z > 0.0 ? 1.0 : s.eta) * wi);
+    dielectric_eval_at(s, wo, wi, h.z < 0.0 ? -h : h, f_cos, pdf);
+}
+#endif
 
 #ifdef TRACE_CLEAR
 // A dielectric interface, smooth or rough (Walter et al. 2007): reflection or transmission picked by Fresnel.
@@ -161,27 +211,12 @@ BsdfSample dielectric_sample(Surface s, vec3 wo, vec3 u) {
     result.weight = vec3(reflected ? 1.0 : passes ? 1.0 / (s.eta * s.eta) : 0.0);
 #ifdef TRACE_ROUGH
     if (rough) {
-        bool wrong_side = reflected ? result.wi.z <= 0.0 : result.wi.z >= 0.0;
-        result.weight *= wrong_side ? 0.0 : ggx_g2(wo, result.wi, s.alpha) / ggx_g1(wo, s.alpha);
-        float visible = ggx_visible_normal_pdf(wo, h, s.alpha);
-        float cos_t = abs(dot(result.wi, h));
-        float denominator = cos_h - s.eta * cos_t;
-        result.pdf = reflected ? f * visible / max(4.0 * cos_h, 1e-12)
-                               : (1.0 - f) * visible * s.eta * s.eta * cos_t / max(denominator * denominator, 1e-12);
+        vec3 f_cos;
+        dielectric_eval_at(s, wo, result.wi, h, f_cos, result.pdf);
+        // f cos / density without D, which is large for small alpha.
+        result.weight *= result.pdf > 0.0 ? ggx_g2_over_g1(wo, result.wi, s.alpha) : 0.0;
     }
 #endif
     return result;
-}
-#endif
-
-#ifdef TRACE_ROUGH
-// f cos and density of a rough dielectric for a wi on wo's side.
-void dielectric_eval_reflection(Surface s, vec3 wo, vec3 wi, out vec3 f_cos, out float pdf) {
-    vec3 h = normalize(wo + wi);
-    float f = fresnel_dielectric(clamp(dot(wo, h), 0.0, 1.0), s.eta);
-    float d = ggx_d(h, s.alpha);
-    bool valid = wi.z > 0.0 && wo.z > 0.0 && s.eta != 1.0;
-    f_cos = vec3(valid ? f * d * ggx_g2(wo, wi, s.alpha) / (4.0 * wo.z) : 0.0);
-    pdf = valid ? f * d * ggx_g1(wo, s.alpha) / (4.0 * wo.z) : 0.0;
 }
 #endif

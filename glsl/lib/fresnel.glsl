@@ -4,12 +4,16 @@
 // 1 at and beyond total internal reflection; 0 for eta == 1.
 float fresnel_dielectric(float cos_i, float eta) {
     if (eta == 1.0) return 0.0;
-    float sin2_t = (1.0 - cos_i * cos_i) / (eta * eta);
-    if (sin2_t >= 1.0) return 1.0;
-    float cos_t = sqrt(1.0 - sin2_t);
-    float parallel = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
-    float perpendicular = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
-    return 0.5 * (parallel * parallel + perpendicular * perpendicular);
+    // With g = eta cos_t and the differences of Fresnel's numerators multiplied out: no cancellation for eta near 1 or
+    // near the critical angle.
+    float m = (eta - 1.0) * (eta + 1.0);
+    float c2 = cos_i * cos_i;
+    if (m + c2 <= 0.0) return 1.0;
+    float g = sqrt(m + c2);
+    float eta2 = eta * eta;
+    float parallel = m * ((eta2 + 1.0) * c2 - 1.0) / ((eta2 * cos_i + g) * (eta2 * cos_i + g));
+    float perpendicular = m / ((cos_i + g) * (cos_i + g));
+    return min(1.0, 0.5 * (parallel * parallel + perpendicular * perpendicular));
 }
 
 // Schlick 1994, for metals only.
@@ -23,10 +27,11 @@ vec3 fresnel_schlick(float cos_i, vec3 f0) {
 // reflection. eta = index beyond / index here.
 bool refract_through(vec3 wo, vec3 n, float eta, out vec3 wi) {
     float cos_i = dot(wo, n);
-    float sin2_t = (1.0 - cos_i * cos_i) / (eta * eta);
+    float m = (eta - 1.0) * (eta + 1.0);
+    float g2 = m + cos_i * cos_i;
     wi = vec3(0.0);
-    if (sin2_t >= 1.0) return false;
-    float cos_t = sqrt(max(0.0, 1.0 - sin2_t));
-    wi = normalize((cos_i / eta - cos_t) * n - wo / eta);
+    if (g2 <= 0.0) return false;
+    // eta wi = (cos_i - g) n - wo with g = eta cos_t.
+    wi = normalize(-m / (cos_i + sqrt(g2)) * n - wo);
     return true;
 }

@@ -14,15 +14,21 @@ float ggx_d(vec3 h, float alpha) {
     return a2 / (PI * s * s);
 }
 
-float ggx_lambda(vec3 w, float alpha) {
-    float z2 = w.z * w.z;
-    if (z2 == 0.0) return 1e18;
-    return 0.5 * (sqrt(1.0 + alpha * alpha * dot(w.xy, w.xy) / z2) - 1.0);
+// Smith's masking with lambda = (stretched / |cos| - 1) / 2, in forms that hold at every angle: G1 / cos of w, ...
+float ggx_stretched(vec3 w, float alpha) { return sqrt(w.z * w.z + alpha * alpha * dot(w.xy, w.xy)); }
+
+float ggx_g1_over_cos(vec3 w, float alpha) { return 2.0 / max(abs(w.z) + ggx_stretched(w, alpha), 1e-30); }
+
+// ... G2 / cos of wo, ...
+float ggx_g2_over_cos(vec3 wo, vec3 wi, float alpha) {
+    float sum = ggx_stretched(wo, alpha) * abs(wi.z) + ggx_stretched(wi, alpha) * abs(wo.z);
+    return 2.0 * abs(wi.z) / max(sum, 1e-30);
 }
 
-float ggx_g1(vec3 w, float alpha) { return 1.0 / (1.0 + ggx_lambda(w, alpha)); }
-
-float ggx_g2(vec3 wo, vec3 wi, float alpha) { return 1.0 / (1.0 + ggx_lambda(wo, alpha) + ggx_lambda(wi, alpha)); }
+// ... and G2 / G1 of wo: the weight of what is sampled by visible normals.
+float ggx_g2_over_g1(vec3 wo, vec3 wi, float alpha) {
+    return ggx_g2_over_cos(wo, wi, alpha) / ggx_g1_over_cos(wo, alpha);
+}
 
 // A normal visible from wo (wo.z > 0), by spherical caps (Dupuy & Benyoub 2023). u in [0,1)^2.
 vec3 ggx_sample_visible_normal(vec3 wo, float alpha, vec2 u) {
@@ -32,9 +38,4 @@ vec3 ggx_sample_visible_normal(vec3 wo, float alpha, vec2 u) {
     float r = sqrt(clamp(1.0 - z * z, 0.0, 1.0));
     vec3 h = vec3(r * cos(phi), r * sin(phi), z) + w;
     return normalize(vec3(h.xy * alpha, max(h.z, 1e-12)));
-}
-
-// Density of that normal per solid angle.
-float ggx_visible_normal_pdf(vec3 wo, vec3 h, float alpha) {
-    return ggx_g1(wo, alpha) * max(0.0, dot(wo, h)) * ggx_d(h, alpha) / max(wo.z, 1e-12);
 }

@@ -45,10 +45,12 @@ vec3 sampled_sun(Vertex v, bool through_water) {
 #endif
     vec3 f_cos;
     float pdf;
-    vertex_eval(v, vertex_local(v, dir), f_cos, pdf);
+    vec3 wi = vertex_local(v, dir);
+    vertex_eval(v, wi, f_cos, pdf);
     if (in_air && frame.sun_irradiance.w > 0.0) weight *= power_heuristic(1.0 / frame.sun_irradiance.w, pdf);
     vec3 light = f_cos * weight;
-    bool asked = (in_air || through_water) && max_component(light) > 0.0;
+    // The ray leaves on this side: what a rough interface passes to the other is left to chance.
+    bool asked = (in_air || through_water) && wi.z > 0.0 && max_component(light) > 0.0;
     RayStart ray = v.start;
     bool seen = false;
 #ifdef TRACE_CLEAR
@@ -186,9 +188,10 @@ vec3 sampled_emitter(Vertex v, bool across_water, float above, bool mirrored) {
 #endif
     vec3 f_cos;
     float pdf_scattered;
-    vertex_eval(v, vertex_local(v, dir), f_cos, pdf_scattered);
+    vec3 wi = vertex_local(v, dir);
+    vertex_eval(v, wi, f_cos, pdf_scattered);
     light *= f_cos;
-    asked = asked && pdf > 0.0 && max_component(light) > 0.0;
+    asked = asked && pdf > 0.0 && wi.z > 0.0 && max_component(light) > 0.0;
     light *= asked ? power_heuristic(pdf, pdf_scattered * chance) / pdf : 0.0;
     RayStart ray = v.start;
     bool seen = false;

@@ -64,7 +64,7 @@ vec3 vertex_world(Vertex v, vec3 local) {
 void vertex_eval(Vertex v, vec3 wi, out vec3 f_cos, out float pdf) {
 #ifdef TRACE_ROUGH
     if (v.surface.transmissive)
-        dielectric_eval_reflection(v.surface, v.wo, wi, f_cos, pdf);
+        dielectric_eval(v.surface, v.wo, wi, f_cos, pdf);
     else
 #endif
         opaque_eval(v.surface, v.wo, wi, option(OPTION_UNIFORM_DIFFUSE), f_cos, pdf);

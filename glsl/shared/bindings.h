@@ -5,12 +5,13 @@
 // Uniform blocks
 #define BINDING_FRAME 0
 #define BINDING_MATERIALS 1
-// Textures that every ray needs; a pass's own inputs follow from 4
+// Textures that every ray needs; a pass's own inputs are 4 to 11
 #define BINDING_CELLS 0
 #define BINDING_BRICK_DISTANCE 1
 #define BINDING_ALBEDO_TABLE 2
 #define BINDING_BRICK_CHANGED 3
 #define BINDING_FIRST_INPUT 4
+#define BINDING_METAL_ALBEDO_TABLE 12
 
 // Images of the passes that change cells
 #define IMAGE_CELLS 0

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 
+#include "app/albedo_textures.h"
 #include "app/camera.h"
 #include "app/frame_block.h"
 #include "app/render_targets.h"
@@ -21,28 +22,10 @@
 #include "passes/pick_pass.h"
 #include "passes/temporal_pass.h"
 #include "passes/trace_pass.h"
-#include "reference/albedo.h"
 #include "shared/bindings.h"
 #include "shared/trace.h"
 
 namespace tarn {
-
-namespace {
-
-constexpr float albedo_table[] = {
-#include "albedo_table.inc"
-};
-
-gl::Texture make_albedo_texture() {
-    gl::Texture texture({.label = "albedo table",
-                         .format = GL_RG32F,
-                         .size = {albedo_cos_count, albedo_roughness_count, albedo_eta_count},
-                         .linear = true});
-    texture.upload(std::span<const float>(albedo_table), GL_RG, GL_FLOAT);
-    return texture;
-}
-
-}  // namespace
 
 struct Renderer::Parts {
     gl::Timers& timers;
@@ -52,7 +35,7 @@ struct Renderer::Parts {
     float metres_per_voxel;
     std::uint32_t seed;
 
-    gl::Texture albedo = make_albedo_texture();
+    AlbedoTextures albedo = make_albedo_textures();
     gl::Buffer frame_block{"frame block", sizeof(FrameBlock)};
     gl::Buffer material_block{"materials", sizeof(make_material_block({}))};
     gl::Buffer rejected{"rejected samples", sizeof(std::uint32_t)};
@@ -265,12 +248,13 @@ const gl::Texture& Renderer::render(const Simulation& simulation, const Settings
     p.upload_frame(simulation, settings);
     p.current = 1 - p.current;
 
-    p.views.prepare(settings, *p.targets, p.has_history);
     const TraceFeatures features = p.features(simulation);
     if (features.emitters) p.update_emitters(simulation);
+    p.views.prepare(settings, *p.targets, p.has_history);
     p.trace_pass(features).record({.cells = simulation.cells(),
                                    .brick_distance = simulation.brick_distance(),
-                                   .albedo_table = p.albedo,
+                                   .albedo_table = p.albedo.dielectric,
+                                   .metal_albedo_table = p.albedo.metal,
                                    .emitters = features.emitters ? &*p.emitters : nullptr,
                                    .rejected = p.rejected},
                                   {.target = p.views.trace_target(*p.targets, p.current)}, p.timers);

@@ -37,7 +37,10 @@ void TracePass::record(const Inputs& inputs, const Outputs& outputs, gl::Timers&
     const auto scope = timers.scope("trace");
     inputs.cells.bind(BINDING_CELLS);
     if (features_.skip) inputs.brick_distance.bind(BINDING_BRICK_DISTANCE);
-    if (features_.coated) inputs.albedo_table.bind(BINDING_ALBEDO_TABLE);
+    if (features_.coated) {
+        inputs.albedo_table.bind(BINDING_ALBEDO_TABLE);
+        inputs.metal_albedo_table.bind(BINDING_METAL_ALBEDO_TABLE);
+    }
     if (features_.emitters) {
         CHECK(inputs.emitters != nullptr);
         inputs.emitters->bind();

@@ -32,6 +32,7 @@ class TracePass {
         const gl::Texture& cells;
         const gl::Texture& brick_distance;
         const gl::Texture& albedo_table;
+        const gl::Texture& metal_albedo_table;
         const EmittersPass* emitters;  // null unless the feature is on
         const gl::Buffer& rejected;    // one uint, counted up
     };

@@ -26,17 +26,17 @@ double lambda(const glm::dvec3& w, double alpha) {
     return 0.5 * (std::sqrt(1 + alpha * alpha * tan2) - 1);
 }
 
-}  // namespace
-
-double ggx_dielectric_albedo(double cos_o, double alpha, double eta, int n) {
-    cos_o = std::clamp(cos_o, 1e-4, 1.0);
-    if (alpha < 1e-3) return fresnel(cos_o, eta);
+// Mean of `reflectance` (of the cosine to the facet) with the shadowing of what leaves, over the facets that
+// wo sees.
+template <typename Reflectance>
+double ggx_albedo(double cos_o, double alpha, int n, Reflectance reflectance) {
     const glm::dvec3 wo(std::sqrt(1 - cos_o * cos_o), 0, cos_o);
     // Normals visible from wo by the projected-disc parametrisation (Heitz 2018): independent of the shaders'
     // caps.
     const glm::dvec3 v = glm::normalize(glm::dvec3(alpha * wo.x, 0, wo.z));
     const glm::dvec3 t1(0, 1, 0);
     const glm::dvec3 t2 = glm::cross(v, t1);
+    const double lambda_o = lambda(wo, alpha);
     double sum = 0;
     for (int i = 0; i < n; ++i) {
         for (int j = 0; j < n; ++j) {
@@ -51,11 +51,22 @@ double ggx_dielectric_albedo(double cos_o, double alpha, double eta, int n) {
             const double cos_h = std::min(1.0, glm::dot(wo, h));
             const glm::dvec3 wi = 2 * cos_h * h - wo;
             if (wi.z <= 0 || cos_h <= 0) continue;
-            const double lambda_o = lambda(wo, alpha);
-            sum += fresnel(cos_h, eta) * (1 + lambda_o) / (1 + lambda_o + lambda(wi, alpha));
+            sum += reflectance(cos_h) * (1 + lambda_o) / (1 + lambda_o + lambda(wi, alpha));
         }
     }
     return sum / (n * n);
+}
+
+}  // namespace
+
+double ggx_dielectric_albedo(double cos_o, double alpha, double eta, int n) {
+    cos_o = std::clamp(cos_o, 1e-4, 1.0);
+    if (alpha < 1e-3) return fresnel(cos_o, eta);
+    return ggx_albedo(cos_o, alpha, n, [eta](double cos_h) { return fresnel(cos_h, eta); });
+}
+
+double ggx_metal_albedo(double cos_o, double alpha, int n) {
+    return ggx_albedo(std::clamp(cos_o, 1e-8, 1.0), alpha, n, [](double) { return 1.0; });
 }
 
 std::vector<float> make_albedo_table() {
@@ -88,6 +99,24 @@ std::vector<float> make_albedo_table() {
                 table.push_back(static_cast<float>(value));
                 table.push_back(static_cast<float>(mean));
             }
+        }
+    }
+    return table;
+}
+
+std::vector<float> make_metal_albedo_table() {
+    constexpr int quadrature = 100;
+    std::vector<float> table;
+    table.reserve(std::size_t{1} * metal_albedo_angle_count * metal_albedo_roughness_count);
+    for (int r = 0; r < metal_albedo_roughness_count; ++r) {
+        // Below ALPHA_SMOOTH nothing is looked up.
+        const double roughness = std::max(std::sqrt(static_cast<double>(ALPHA_SMOOTH)),
+                                          static_cast<double>(r) / (metal_albedo_roughness_count - 1));
+        for (int a = 0; a < metal_albedo_angle_count; ++a) {
+            const double x = static_cast<double>(a) / (metal_albedo_angle_count - 1);
+            const double root = roughness * x / (1 + roughness - x);
+            table.push_back(
+                static_cast<float>(ggx_metal_albedo(root * root, roughness * roughness, quadrature)));
         }
     }
     return table;
