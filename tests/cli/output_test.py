@@ -5,7 +5,7 @@ import unittest
 
 from command import Case, exr_attributes, read_npy, read_png
 
-SCENES = ("cave", "dam-break", "flat", "fountain", "furnace", "gallery", "islands", "lake", "locks", "u-tube", "waterfall")
+SCENES = ("baths", "cave", "dam-break", "flat", "fountain", "furnace", "gallery", "islands", "lake", "locks", "u-tube", "waterfall")
 MATERIAL_IDS = {"air": 0, "stone": 1, "dirt": 2, "grass": 3, "sand": 4, "glass": 5, "metal": 6, "lamp": 7, "wall": 8,
                 "water": 64}
 SMALL = {"size": [9, 7, 5], "seed": 3,
