@@ -7,12 +7,13 @@
 const float COS_GRAZING = 1e-12;
 
 #ifdef TRACE_COATED
-// E(cos, alpha, eta) of the GGX interface of a dielectric: r; its cosine-weighted mean Eavg: g. Axes: sqrt(cos),
-// roughness, x of ALBEDO_ETA_RANGE (src/reference/albedo.h makes it).
+// E(cos, alpha, eta) of the GGX interface of a dielectric: r, for eta >= 1 less a reflectance of Fresnel; its
+// cosine-weighted mean Eavg: g. Axes: sqrt(cos), or that of metals for eta >= 1; roughness; x of ALBEDO_ETA_RANGE
+// (src/reference/albedo.h makes it).
 layout(binding = BINDING_ALBEDO_TABLE) uniform sampler3D albedo_table;
 
-// Ess(cos, alpha): the part that a GGX interface of reflectance 1 reflects after one scattering. Axes: sqrt(cos)
-// (1 + roughness) / (sqrt(cos) + roughness), roughness.
+// Ess(cos, alpha): the part that a GGX interface of reflectance 1 reflects after one scattering. Axes: angle_axis(),
+// roughness.
 layout(binding = BINDING_METAL_ALBEDO_TABLE) uniform sampler2D metal_albedo_table;
 #endif
 
@@ -55,22 +56,31 @@ Surface surface_of(Material m, uint id, uint medium, float medium_ior) {
 bool is_smooth(Surface s) { return s.alpha < ALPHA_SMOOTH; }
 
 #ifdef TRACE_COATED
+float angle_axis(float cos_w, float alpha) {
+    float root = sqrt(cos_w);
+    float roughness = sqrt(max(alpha, ALPHA_SMOOTH));
+    return root * (1.0 + roughness) / (root + roughness);
+}
+
 vec2 albedo_lookup(float cos_w, float alpha, float eta) {
     vec3 size = vec3(textureSize(albedo_table, 0));
+    float c = clamp(cos_w, 0.0, 1.0);
     float s = (eta - 1.0) / (eta + 1.0);
-    float x = sign(s) * sqrt(abs(s) / ALBEDO_ETA_RANGE);
-    vec3 at = vec3(sqrt(clamp(cos_w, 0.0, 1.0)), sqrt(alpha), 0.5 * x + 0.5);
+    float x = sign(s) * sqrt(sqrt(abs(s) / ALBEDO_ETA_RANGE));
+    vec3 at = vec3(eta >= 1.0 ? angle_axis(c, alpha) : sqrt(c), sqrt(alpha), 0.5 * x + 0.5);
     vec2 albedo = textureLod(albedo_table, (clamp(at, 0.0, 1.0) * (size - 1.0) + 0.5) / size, 0.0).rg;
-    // A smooth interface needs no table, and between its samples near grazing the table errs most.
-    if (alpha < ALPHA_SMOOTH) albedo.r = fresnel_dielectric(cos_w, eta);
-    return albedo;
+    // A smooth interface needs no table.
+    bool smooth_one = alpha < ALPHA_SMOOTH;
+    float a2 = alpha * alpha;
+    float facet = smooth_one ? c : sqrt((c * c + ALBEDO_FACET_SPREAD * a2 * (1.0 - c * c)) / (1.0 + a2));
+    float f = fresnel_dielectric(min(facet, 1.0), eta);
+    if (smooth_one || eta >= 1.0) albedo.r = f + (smooth_one ? 0.0 : albedo.r);
+    return vec2(clamp(albedo.r, 0.0, 1.0), albedo.g);
 }
 
 float metal_albedo_lookup(float cos_w, float alpha) {
     vec2 size = vec2(textureSize(metal_albedo_table, 0));
-    float root = sqrt(clamp(cos_w, 0.0, 1.0));
-    float roughness = sqrt(max(alpha, ALPHA_SMOOTH));
-    vec2 at = vec2(root * (1.0 + roughness) / (root + roughness), roughness);
+    vec2 at = vec2(angle_axis(clamp(cos_w, 0.0, 1.0), alpha), sqrt(alpha));
     float albedo = textureLod(metal_albedo_table, (clamp(at, 0.0, 1.0) * (size - 1.0) + 0.5) / size, 0.0).r;
     return alpha < ALPHA_SMOOTH ? 1.0 : albedo;
 }

@@ -13,14 +13,16 @@ double ggx_dielectric_albedo(double cos_o, double alpha, double eta, int n);
 // The same of a metal that reflects all at every angle: what is missing to 1 scatters more than once.
 double ggx_metal_albedo(double cos_o, double alpha, int n);
 
-// Axes of the table: sqrt(cos), roughness = sqrt(alpha), x of ALBEDO_ETA_RANGE (glsl/shared/trace.h); both
-// ends included.
+// Axes of the table of dielectrics: the angle, roughness = sqrt(alpha), x of ALBEDO_ETA_RANGE
+// (glsl/shared/trace.h); all ends included. The angle is sqrt(cos) for eta < 1. For eta >= 1 it is that of
+// the table of metals.
 constexpr int albedo_cos_count = 32;
-constexpr int albedo_roughness_count = 16;
-constexpr int albedo_eta_count = 25;
+constexpr int albedo_roughness_count = 32;
+constexpr int albedo_eta_count = 33;
 
-// Pairs (E(cos), Eavg), cos fastest, then roughness, then eta. Eavg integrates the table's own interpolation,
-// so that a white base under it conserves energy.
+// Pairs (E(cos), Eavg), angle fastest, then roughness, then eta; for eta >= 1 E is less the reflectance of
+// ALBEDO_FACET_SPREAD. Eavg integrates the table's own interpolation, so that a white base under it conserves
+// energy.
 std::vector<float> make_albedo_table();
 
 // Axes of the table of metals: sqrt(cos) (1 + roughness) / (sqrt(cos) + roughness), which follows the dip of
