@@ -17,6 +17,11 @@ layout(binding = BINDING_ALBEDO_TABLE) uniform sampler3D albedo_table;
 layout(binding = BINDING_METAL_ALBEDO_TABLE) uniform sampler2D metal_albedo_table;
 #endif
 
+#ifdef TRACE_ROUGH
+// The part that rough glass reflects and transmits after one scattering. Axes: angle_axis(), roughness, eta_axis().
+layout(binding = BINDING_GLASS_ALBEDO_TABLE) uniform sampler3D glass_albedo_table;
+#endif
+
 struct Surface {
     vec3 base;
     float alpha;
@@ -55,19 +60,23 @@ Surface surface_of(Material m, uint id, uint medium, float medium_ior) {
 
 bool is_smooth(Surface s) { return s.alpha < ALPHA_SMOOTH; }
 
-#ifdef TRACE_COATED
+// Axes of the tables.
 float angle_axis(float cos_w, float alpha) {
     float root = sqrt(cos_w);
     float roughness = sqrt(max(alpha, ALPHA_SMOOTH));
     return root * (1.0 + roughness) / (root + roughness);
 }
 
+float eta_axis(float eta) {
+    float s = (eta - 1.0) / (eta + 1.0);
+    return 0.5 + 0.5 * sign(s) * sqrt(sqrt(abs(s) / ALBEDO_ETA_RANGE));
+}
+
+#ifdef TRACE_COATED
 vec2 albedo_lookup(float cos_w, float alpha, float eta) {
     vec3 size = vec3(textureSize(albedo_table, 0));
     float c = clamp(cos_w, 0.0, 1.0);
-    float s = (eta - 1.0) / (eta + 1.0);
-    float x = sign(s) * sqrt(sqrt(abs(s) / ALBEDO_ETA_RANGE));
-    vec3 at = vec3(eta >= 1.0 ? angle_axis(c, alpha) : sqrt(c), sqrt(alpha), 0.5 * x + 0.5);
+    vec3 at = vec3(eta >= 1.0 ? angle_axis(c, alpha) : sqrt(c), sqrt(alpha), eta_axis(eta));
     vec2 albedo = textureLod(albedo_table, (clamp(at, 0.0, 1.0) * (size - 1.0) + 0.5) / size, 0.0).rg;
     // A smooth interface needs no table.
     bool smooth_one = alpha < ALPHA_SMOOTH;
@@ -176,6 +185,13 @@ BsdfSample opaque_sample(Surface s, vec3 wo, vec3 u, bool uniform_diffuse) {
 }
 
 #ifdef TRACE_ROUGH
+// What scatters more than once goes where the rest goes (Turquin 2019): a factor on f.
+float glass_gain(Surface s, float cos_o) {
+    vec3 size = vec3(textureSize(glass_albedo_table, 0));
+    vec3 at = vec3(angle_axis(clamp(cos_o, 0.0, 1.0), s.alpha), sqrt(s.alpha), eta_axis(s.eta));
+    return 1.0 / textureLod(glass_albedo_table, (clamp(at, 0.0, 1.0) * (size - 1.0) + 0.5) / size, 0.0).r;
+}
+
 // f cos and density of a rough dielectric for a pair of directions and the facet normal h (h.z > 0) that turns one into
 // the other (Walter et al. 2007, eq. 20 and 21). Transmitted radiance is scaled by (index here / index beyond)^2.
 void dielectric_eval_at(Surface s, vec3 wo, vec3 wi, vec3 h, out vec3 f_cos, out float pdf) {
@@ -189,7 +205,7 @@ void dielectric_eval_at(Surface s, vec3 wo, vec3 wi, vec3 h, out vec3 f_cos, out
     facets *= ggx_d(h, s.alpha);
     bool valid = min(wo.z, abs(wi.z)) >= COS_GRAZING && cos_o > 0.0 && (reflects ? cos_i > 0.0 : cos_i < 0.0) &&
                  s.eta != 1.0 && !is_smooth(s);
-    f_cos = vec3(valid ? facets * ggx_g2_over_cos(wo, wi, s.alpha) : 0.0);
+    f_cos = vec3(valid ? facets * ggx_g2_over_cos(wo, wi, s.alpha) * glass_gain(s, wo.z) : 0.0);
     pdf = valid ? facets * ggx_g1_over_cos(wo, s.alpha) * (reflects ? 1.0 : s.eta * s.eta) : 0.0;
 }
 
@@ -224,7 +240,7 @@ BsdfSample dielectric_sample(Surface s, vec3 wo, vec3 u) {
         vec3 f_cos;
         dielectric_eval_at(s, wo, result.wi, h, f_cos, result.pdf);
         // f cos / density without D, which is large for small alpha.
-        result.weight *= result.pdf > 0.0 ? ggx_g2_over_g1(wo, result.wi, s.alpha) : 0.0;
+        result.weight *= result.pdf > 0.0 ? ggx_g2_over_g1(wo, result.wi, s.alpha) * glass_gain(s, wo.z) : 0.0;
     }
 #endif
     return result;

@@ -244,6 +244,7 @@ const gl::Texture& Renderer::render(const Simulation& simulation, const Settings
                  .brick_distance = simulation.brick_distance(),
                  .albedo_table = p.albedo.dielectric,
                  .metal_albedo_table = p.albedo.metal,
+                 .glass_albedo_table = p.albedo.glass,
                  .rejected = p.rejected},
                 {.target = p.targets->trace_target[p.current]}, p.timers);
     p.shown =

@@ -37,6 +37,7 @@ void TracePass::record(const Inputs& inputs, const Outputs& outputs, gl::Timers&
         inputs.albedo_table.bind(BINDING_ALBEDO_TABLE);
         inputs.metal_albedo_table.bind(BINDING_METAL_ALBEDO_TABLE);
     }
+    if (features_.rough) inputs.glass_albedo_table.bind(BINDING_GLASS_ALBEDO_TABLE);
     inputs.rejected.bind_storage(0);
     program_.use();
     outputs.target.draw_fullscreen();

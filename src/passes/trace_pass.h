@@ -29,6 +29,7 @@ class TracePass {
         const gl::Texture& brick_distance;
         const gl::Texture& albedo_table;
         const gl::Texture& metal_albedo_table;
+        const gl::Texture& glass_albedo_table;
         const gl::Buffer& rejected;  // one uint, counted up
     };
     struct Outputs {
