@@ -1,7 +1,7 @@
 // The path tracer: one path from the eye, its light, and the first surface it meets. Options, so that what a scene
 // does not contain costs nothing: TRACE_CLEAR (water or glass), TRACE_ROUGH (some of it rough), TRACE_COATED (opaque
-// materials with an interface, metals), TRACE_SUN and TRACE_SKY (light sampling), TRACE_SMOOTH_WATER (water's levels
-// shaded as one surface; needs TRACE_CLEAR).
+// materials with an interface), TRACE_METAL (metals among them; needs TRACE_COATED), TRACE_SUN and TRACE_SKY (light
+// sampling), TRACE_SMOOTH_WATER (water's levels shaded as one surface; needs TRACE_CLEAR).
 #include "shared/frame.h"
 #include "shared/trace.h"
 #include "lib/bsdf.glsl"

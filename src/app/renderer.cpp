@@ -133,6 +133,7 @@ TraceFeatures Renderer::Parts::features(const Simulation& simulation) const {
         const bool clear = id == MATERIAL_WATER || id == MATERIAL_GLASS;
         if (clear) features.rough |= m.roughness * m.roughness >= ALPHA_SMOOTH;
         if (!clear) features.coated |= m.ior != 1 || m.metallic > 0;
+        if (!clear) features.metal |= m.metallic > 0;
         features.clear |= clear;
     }
     const glm::vec3 sun = settings.sun_irradiance;

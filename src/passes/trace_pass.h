@@ -16,6 +16,7 @@ struct TraceFeatures {
     bool clear = false;         // water or glass
     bool rough = false;         // some of it rough
     bool coated = false;        // opaque materials with an interface, metals
+    bool metal = false;         // metals among them
     bool sun = false;           // sampled
     bool sky = false;           // sampled
     bool smooth_water = false;  // levels of neighbouring voxels shaded as one surface; with clear

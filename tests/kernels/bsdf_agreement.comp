@@ -59,7 +59,7 @@ void main() {
         mine.weight = max(mine.weight, difference(f_cos.x / pdf, sampled.weight.x) / ulp);
         mine.density = max(mine.density, difference(pdf, sampled.pdf) / ulp);
 
-        // f without the cosine; beyond the surface it is scaled by the index squared (Walter et al. 2007, section 5.2).
+        // f without the cosine; beyond the surface it is scaled by the index squared (Walter et al. 2007).
         float forward = f_cos.x / abs(sampled.wi.z);
         Surface back = s;
         vec3 from = sampled.wi;
