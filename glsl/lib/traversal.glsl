@@ -1,6 +1,7 @@
 // Rays through the grid of cells: where the medium around a ray changes. Owns the walk and its samplers; knows
 // nothing of optics. src/reference/traversal.cpp is the same walk, voxel by voxel, on the CPU.
-// Options: TRAVERSAL_SKIP jumps over bricks of one medium; TRAVERSAL_THROUGH_WATER counts water as air.
+// Options: TRAVERSAL_SKIP jumps over bricks of one medium; TRAVERSAL_THROUGH_WATER counts water as air;
+// TRACE_COUNT adds up iterations.
 #include "shared/bindings.h"
 #include "shared/frame.h"
 #include "shared/materials.h"
@@ -38,6 +39,10 @@ const float TRAVERSAL_STILL = 1e-30;
 // Stands for "never" where a direction has no component along an axis; beyond every limit.
 const float TRAVERSAL_NEVER = 3e38;
 const float TRAVERSAL_T_MAX = 1e30;
+
+#ifdef TRACE_COUNT
+int steps_walked = 0;  // of all rays so far
+#endif
 
 uint cell_byte(ivec3 cell) {
     uint value = texelFetch(cells, cell, 0).r;
@@ -139,6 +144,10 @@ RayHit trace_ray(RayStart start, vec3 dir, float t_max_vox) {
         clear_bricks = int((distances.r & air_mask) | (distances.g & water_mask));
 #endif
     }
+
+#ifdef TRACE_COUNT
+    if (limit >= 0.0) steps_walked += steps;  // below 0 the ray was not asked for
+#endif
 
     if (beyond != medium) {
         ivec3 previous = cell;

@@ -12,10 +12,6 @@ vec3 filmic(vec3 x) {
     return clamp((x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
 }
 
-vec3 srgb_from_linear(vec3 c) {
-    return mix(1.055 * pow(max(c, vec3(0.0031308)), vec3(1.0 / 2.4)) - 0.055, 12.92 * c, lessThan(c, vec3(0.0031308)));
-}
-
 vec3 shown_radiance() {
     if (frame.size_px.xy == frame.size_px.zw) return texelFetch(radiance, ivec2(gl_FragCoord.xy), 0).rgb;
     return textureLod(radiance, gl_FragCoord.xy / vec2(frame.size_px.zw), 0.0).rgb;

@@ -15,9 +15,19 @@ layout(binding = 9) uniform sampler2D previous_position;
 layout(binding = 10) uniform sampler2D previous_normal;
 layout(binding = 11) uniform usampler2D previous_material;
 
+#ifdef HISTORY_MOMENTS
+layout(binding = 12) uniform sampler2D previous_moments;
+uniform bool has_moments;  // the previous frame wrote some
+#endif
+
 uniform uint previous_version;  // of the world, when the previous frame was made
 
 layout(location = 0) out vec4 out_radiance;  // rgb; a: frames kept, this one included
+#ifdef HISTORY_MOMENTS
+// r: variance of one frame's luminance; g: sum of the squared weights of the frames in the mean, so that r * g is the
+// mean's variance; b: frames that r is made of
+layout(location = 1) out vec4 out_moments;
+#endif
 
 layout(std430, binding = 0) buffer RejectedBlock { uint rejected_samples; };
 
@@ -46,6 +56,9 @@ void main() {
 
     vec4 history = vec4(0.0);
     float weight_sum = 0.0;
+#ifdef HISTORY_MOMENTS
+    vec3 moments = vec3(0.0);
+#endif
     vec2 ndc;
     if (frame.world_size_vox.w != 0 && previous_ndc(here.xyz, ndc) && all(lessThan(abs(ndc), vec2(1.0)))) {
         vec2 size = vec2(textureSize(previous_radiance, 0));
@@ -71,6 +84,9 @@ void main() {
                 continue;
             }
             history += w * kept;
+#ifdef HISTORY_MOMENTS
+            if (has_moments) moments += w * texelFetch(previous_moments, tap, 0).rgb;
+#endif
             weight_sum += w;
         }
     }
@@ -88,4 +104,25 @@ void main() {
     float alpha = 1.0 / (count + 1.0);
 #endif
     out_radiance = vec4(count > 0.0 ? mix(history.rgb, value, alpha) : value, count + 1.0);
+#ifdef HISTORY_MOMENTS
+    moments = count > 0.0 ? moments / weight_sum : vec3(0.0);
+    if (!is_finite(moments)) moments = vec3(0.0);
+    if (count > 0.0) {
+        // A history from before the moments were kept: the squares of its weights as they are in the long run.
+#ifdef HISTORY_BLEND
+        float settled = alpha / (2.0 - alpha);
+#else
+        float settled = 1.0 / count;
+#endif
+        if (moments.g == 0.0) moments.g = settled;
+        // The expected square of this is the variance of a frame, times 1 and that of the mean it is compared with.
+        float deviation = luminance(value) - luminance(history.rgb);
+        float frame_variance = min(deviation * deviation, 1e30) / (1.0 + moments.g);
+        float share = 1.0 / (min(moments.b, frame.history.y - 1.0) + 1.0);
+        out_moments = vec4(mix(moments.r, frame_variance, share),
+                           (1.0 - alpha) * (1.0 - alpha) * moments.g + alpha * alpha, moments.b + 1.0, 0.0);
+    } else {
+        out_moments = vec4(0.0, 1.0, 0.0, 0.0);
+    }
+#endif
 }

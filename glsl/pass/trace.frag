@@ -2,12 +2,13 @@
 #include "lib/path.glsl"
 #include "lib/camera.glsl"
 
-layout(location = 0) in vec3 ray_dir;
-
 layout(location = 0) out vec4 out_radiance;  // rgb; a: 1
 layout(location = 1) out vec4 out_position;  // xyz: first hit (vox); w: distance from the eye
 layout(location = 2) out vec4 out_normal;    // xyz; 0 for sky
 layout(location = 3) out uint out_material;  // id; 255 for sky
+#ifdef TRACE_COUNT
+layout(location = 4) out vec2 out_counts;    // bounces and steps, means over the paths
+#endif
 
 layout(std430, binding = 0) buffer RejectedBlock { uint rejected_samples; };
 
@@ -15,17 +16,24 @@ void main() {
     uvec2 pixel = uvec2(gl_FragCoord.xy);
     vec3 sum = vec3(0.0);
     FirstSurface first;
+#ifdef TRACE_COUNT
+    out_counts = vec2(0.0);
+#endif
+    // From whole numbers: interpolated between corners, the rays of very wide views lose digits near the middle.
+    vec2 size = vec2(frame.size_px.xy);
+    vec2 ndc = (2.0 * gl_FragCoord.xy - size) / size;
     uint count = frame.counters.z;
     for (uint i = 0u; i < count; ++i) {
         rng_seed(pixel, frame.counters.x, i, frame.counters.y);
-        vec3 dir = ray_dir;
-        if (option(OPTION_JITTER)) {
-            vec2 ndc = (2.0 * rng_vec2() - 1.0) / vec2(frame.size_px.xy);
-            dir += ndc.x * frame.camera_right.xyz + ndc.y * frame.camera_up.xyz;
-        }
+        vec2 at = ndc;
+        if (option(OPTION_JITTER)) at += (2.0 * rng_vec2() - 1.0) / size;
         FirstSurface surface;
-        vec3 radiance = trace_path(frame.camera_position_vox.xyz, normalize(dir), surface);
+        vec3 radiance = trace_path(frame.camera_position_vox.xyz, normalize(camera_ray(at)), surface);
         if (i == 0u) first = surface;
+#ifdef TRACE_COUNT
+        out_counts += vec2(path_bounces, steps_walked) / float(count);
+        path_bounces = steps_walked = 0;
+#endif
         if (is_finite(radiance))
             sum += radiance / float(count);
         else

@@ -22,6 +22,14 @@
     F(vec4, sun_radiance)      /* rgb of the disc, 0 for a point; w: 1 where there is a sun */           \
     F(vec4, sky_zenith)        /* rgb radiance */                                                        \
     F(vec4, sky_horizon)       /* rgb radiance */                                                        \
+    F(vec4, sky_perez_a)       /* of the sky preetham: Y (radiance), x, y; a to e of Perez's function */ \
+    F(vec4, sky_perez_b)                                                                                 \
+    F(vec4, sky_perez_c)                                                                                 \
+    F(vec4, sky_perez_d)                                                                                 \
+    F(vec4, sky_perez_e)                                                                                 \
+    F(vec4, sky_perez_scale)   /* zenith over the function there */                                      \
+    F(vec4, sky_sun_dir)       /* xyz: towards the sun, no lower than the horizon */                     \
+    F(vec4, sky_night)         /* rgb radiance that is left without the sun */                           \
     F(vec4, trace_limits)      /* max distance (vox), metres per voxel, firefly limit (0: none), unused */ \
     F(ivec4, trace_options)    /* max bounces, roulette after (bounces), max diffuse bounces, OPTION bits */       \
     F(ivec4, size_px)          /* traced width, height; shown width, height */                           \

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "app/legend.h"
 #include "app/overlay.h"
 #include "core/error.h"
 
@@ -44,6 +45,11 @@ Settings carried_over(const Settings& from_scene, const Settings& current) {
 bool same_camera(const Settings& a, const Settings& b) {
     return a.camera_position_vox == b.camera_position_vox && a.camera_yaw_deg == b.camera_yaw_deg &&
            a.camera_pitch_deg == b.camera_pitch_deg && a.camera_fov_deg == b.camera_fov_deg;
+}
+
+ViewKind neighbour_of(ViewKind view, bool backwards) {
+    const auto count = static_cast<int>(choice_names<ViewKind>().size());
+    return static_cast<ViewKind>((static_cast<int>(view) + (backwards ? count - 1 : 1)) % count);
 }
 
 double tick_ms_total(const gl::Timers& timers) {
@@ -98,7 +104,7 @@ void App::load(const std::string& name_or_path) {
 
 void App::reload() {
     simulation_ = std::make_unique<Simulation>(scene_, timers_);
-    renderer_->reset_history();
+    renderer_->world_replaced();
     history_.clear();
     tools_.end_stroke();
 }
@@ -161,6 +167,7 @@ void App::change_settings(const Input& input, Actions& actions) {
         if (!look_toggled_) panels_.help_open = panels_.settings_open = false;
         look_toggled_ = false;
     }
+    if (input.was_pressed(Key::View)) settings_.view = neighbour_of(settings_.view, input.is_down(Key::Fast));
     if (input.was_pressed(Key::Overlay)) settings_.overlay = !settings_.overlay;
     set_captured(look_toggled_ || input.is_down(Key::MouseLookHold));
     fly(settings_, input, captured_);
@@ -261,6 +268,7 @@ void App::draw_overlays(const Input& input) {
                       .samples = renderer_->samples(),
                       .rejected_samples = rejected_samples_,
                       .brush = tools_.brush});
+    if (settings_.view != ViewKind::Picture) draw_legend(settings_.view);
     if (!shader_error_.empty())
         draw_message(shader_error_, true);
     else if (now_s() < message_until_s_)

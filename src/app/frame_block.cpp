@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "app/camera.h"
+#include "app/clear_sky.h"
 #include "shared/trace.h"
 
 namespace tarn {
@@ -12,7 +13,8 @@ namespace tarn {
 namespace {
 
 void set_sun(FrameBlock& block, const Settings& s) {
-    const glm::dvec3 irradiance(s.sun_irradiance);
+    const bool clear_sky = s.sky_model == SkyModel::Preetham;
+    const glm::dvec3 irradiance = clear_sky ? clear_sky_sunlight(s) : glm::dvec3(s.sun_irradiance);
     const double radius = glm::radians(static_cast<double>(s.sun_angular_radius_deg));
     const bool exists = std::max({irradiance.x, irradiance.y, irradiance.z}) > 0;
     // 1 - cos r = 2 sin^2(r / 2): no cancellation for small discs.
@@ -21,7 +23,7 @@ void set_sun(FrameBlock& block, const Settings& s) {
     const double solid_angle = 2 * std::numbers::pi * versine;
     const double projected = std::numbers::pi * std::pow(std::sin(radius), 2);
     const bool disc = exists && radius > 0 && projected > 0;
-    block.sun_irradiance = glm::vec4(s.sun_irradiance, disc ? solid_angle : 0.0);
+    block.sun_irradiance = glm::vec4(irradiance, disc ? solid_angle : 0.0);
     block.sun_radiance =
         glm::vec4(disc ? glm::vec3(irradiance / projected) : glm::vec3(0), exists ? 1.0f : 0.0f);
 }
@@ -32,12 +34,13 @@ FrameBlock make_frame_block(const FrameInputs& in) {
     const Settings& s = in.settings;
     FrameBlock block;
     const CameraBasis basis = camera_basis(s.camera_yaw_deg, s.camera_pitch_deg);
-    const float half = std::tan(glm::radians(s.camera_fov_deg) / 2);
-    const float aspect = static_cast<float>(in.shown_px.x) / static_cast<float>(in.shown_px.y);
+    // In double precision: near 90 degrees a tangent enlarges the rounding of its angle by its square.
+    const double half = std::tan(glm::radians(static_cast<double>(s.camera_fov_deg)) / 2);
+    const double aspect = static_cast<double>(in.shown_px.x) / in.shown_px.y;
     block.camera_position_vox = glm::vec4(s.camera_position_vox, 0);
     block.camera_dir = glm::vec4(basis.dir, 0);
-    block.camera_right = glm::vec4(basis.right * (half * aspect), 0);
-    block.camera_up = glm::vec4(basis.up * half, 0);
+    block.camera_right = glm::vec4(basis.right * static_cast<float>(half * aspect), 0);
+    block.camera_up = glm::vec4(basis.up * static_cast<float>(half), 0);
     set_previous_eye(block, block);
     block.world_size_vox = glm::ivec4(in.world_size_vox, 0);
     block.counters = {in.frame_index, in.seed, static_cast<std::uint32_t>(s.samples_per_pixel),
@@ -45,6 +48,7 @@ FrameBlock make_frame_block(const FrameInputs& in) {
     set_sun(block, s);
     block.sky_zenith = glm::vec4(s.sky_zenith, 0);
     block.sky_horizon = glm::vec4(s.sky_horizon, 0);
+    if (s.sky_model == SkyModel::Preetham) set_clear_sky(block, s);
     block.trace_limits = {s.max_distance_vox, in.metres_per_voxel, s.firefly_limit, 0};
     int options = 0;
     if (s.sun_through_water) options |= OPTION_SUN_THROUGH_WATER;

@@ -5,15 +5,13 @@
 
 #include <cmath>
 
+#include "app/passive_window.h"
+
 namespace tarn {
 
 namespace {
 
 constexpr double shown_ms_min = 0.005;
-constexpr ImGuiWindowFlags passive_window =
-    ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_AlwaysAutoResize |
-    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav |
-    ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBringToFrontOnFocus;
 
 template <typename... Args>
 void line(fmt::format_string<Args...> format, Args&&... args) {

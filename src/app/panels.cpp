@@ -45,6 +45,9 @@ constexpr HelpLine help_lines[] = {
     {"H or F1", "this help"},
     {"O or F2", "settings"},
     {"F3", "times and counts in the corner"},
+    {"V, Shift+V",
+     "views in place of the picture: albedo, normal, depth, material, bounces, steps, history, variance; the "
+     "legend says what their colours mean"},
     {"F12", "picture: tarn-0001.png and its settings as .json, in the current folder"},
     {"Esc", "give the mouse back; close the panels"},
     {"Ctrl+Q", "quit"},

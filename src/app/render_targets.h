@@ -19,7 +19,7 @@ struct FrameTargets {
           history({.label = "history", .format = GL_RGBA32F, .size = {size, 0}, .linear = true}) {}
 };
 
-// Sums of exact mode; two sets.
+// Sums of exact mode; two sets. The mean goes to `filtered`.
 struct Sums {
     gl::Texture sum, correction;
 
@@ -58,7 +58,7 @@ struct RenderTargets {
         }
         if (!exact) return;
         for (int i = 0; i < 2; ++i)
-            sums_target[i] = gl::Framebuffer("sums", {&sums[i].sum, &sums[i].correction, &filtered[0]});
+            sums_target[i] = gl::Framebuffer("sums", {&sums[i].sum, &sums[i].correction, &filtered[i]});
     }
 };
 

@@ -1,7 +1,6 @@
 #include "app/renderer.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -10,11 +9,15 @@
 #include "app/camera.h"
 #include "app/frame_block.h"
 #include "app/render_targets.h"
+#include "app/stopwatch.h"
+#include "app/views.h"
 #include "core/error.h"
 #include "gl/buffer.h"
 #include "gl/framebuffer.h"
 #include "passes/accumulate_pass.h"
+#include "passes/bricks.h"
 #include "passes/display_pass.h"
+#include "passes/emitters.h"
 #include "passes/filter_pass.h"
 #include "passes/pick_pass.h"
 #include "passes/temporal_pass.h"
@@ -23,20 +26,6 @@
 #include "shared/trace.h"
 
 namespace tarn {
-
-namespace {
-
-class Stopwatch {
-  public:
-    double ms() const {
-        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
-    }
-
-  private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-}  // namespace
 
 struct Renderer::Parts {
     gl::Timers& timers;
@@ -54,17 +43,20 @@ struct Renderer::Parts {
     // A program is built when first used: a run pays for the passes it needs.
     double compile_ms = 0;
     std::map<TraceFeatures, TracePass> trace;
-    std::optional<TemporalPass> temporal[2];  // [blend]
-    std::optional<FilterPass> filter[2];      // [gaussian]
+    std::optional<EmittersPass> emitters;
+    std::optional<TemporalPass> temporal[2][2];  // [blend][moments]
+    std::optional<FilterPass> filter[2];         // [gaussian]
     std::optional<AccumulatePass> accumulate;
     std::optional<DisplayPass> display[2];  // [radiance only]
     std::optional<PickPass> pick[2];        // [through water]
 
     std::optional<RenderTargets> targets;
+    Views views;
     FrameBlock block;   // of the last frame
     Settings settings;  // of the last frame
     int current = 0;    // which of the two sets the last frame wrote
     bool has_history = false;
+    bool has_moments = false;         // the last frame wrote some
     std::uint32_t world_change = 0;   // Simulation::last_change() seen by the last frame of exact mode
     std::uint64_t world_version = 0;  // seen by the last frame
     std::uint64_t frame_index = 0;
@@ -79,11 +71,11 @@ struct Renderer::Parts {
           metres_per_voxel(scene.metres_per_voxel),
           seed(scene.seed) {}
 
-    template <typename Pass, typename Argument>
-    Pass& built(std::optional<Pass>& pass, Argument argument) {
+    template <typename Pass, typename... Arguments>
+    Pass& built(std::optional<Pass>& pass, Arguments... arguments) {
         if (!pass) {
             const Stopwatch watch;
-            pass.emplace(argument);
+            pass.emplace(arguments...);
             compile_ms += watch.ms();
         }
         return *pass;
@@ -96,15 +88,6 @@ struct Renderer::Parts {
         compile_ms += watch.ms();
         return pass;
     }
-    AccumulatePass& accumulate_pass() {
-        if (!accumulate) {
-            const Stopwatch watch;
-            accumulate.emplace();
-            compile_ms += watch.ms();
-        }
-        return *accumulate;
-    }
-
     bool may_contain(const Simulation& simulation, std::size_t id) const;
     TraceFeatures features(const Simulation& simulation) const;
     void prepare_targets(const Settings& now, glm::ivec2 size_px);
@@ -113,8 +96,10 @@ struct Renderer::Parts {
         const FrameTargets& frame = targets->frames[set];
         return {radiance, frame.position, frame.normal, frame.material};
     }
+    void update_emitters(const Simulation& simulation);
     const gl::Texture& accumulate_exact();
     const gl::Texture& reproject_and_filter(const Simulation& simulation);
+    void show(const gl::Framebuffer& target, bool raw);
 };
 
 // What the world held at its start, what was built since, and what springs make: more than is there now at
@@ -135,12 +120,16 @@ TraceFeatures Renderer::Parts::features(const Simulation& simulation) const {
         if (!clear) features.coated |= m.ior != 1 || m.metallic > 0;
         if (!clear) features.metal |= m.metallic > 0;
         features.clear |= clear;
+        const glm::vec3 shines = id == MATERIAL_WATER ? glm::vec3(0) : m.emission;  // as in lib/emitter_tree
+        features.emitters |= std::max({shines.x, shines.y, shines.z}) > 0;
     }
-    const glm::vec3 sun = settings.sun_irradiance;
     features.skip = settings.traversal == Traversal::Distance;
-    features.sun = settings.light_sampling != LightSampling::None && std::max({sun.x, sun.y, sun.z}) > 0;
-    features.sky = settings.light_sampling == LightSampling::SunAndSky;
+    features.sun = settings.light_sampling != LightSampling::None && block.sun_radiance.w > 0;
+    features.sky = settings.light_sampling == LightSampling::All;
+    features.emitters &= settings.light_sampling != LightSampling::None;
+    features.clear_sky = settings.sky_model == SkyModel::Preetham;
     features.smooth_water = settings.smooth_water && may_contain(simulation, MATERIAL_WATER);
+    features.count = counts_paths(settings.view);
     return features;
 }
 
@@ -150,7 +139,8 @@ void Renderer::Parts::prepare_targets(const Settings& now, glm::ivec2 size_px) {
     const bool exact = now.history == History::Exact;
     if (targets && targets->traced_px == traced && targets->shown_px == size_px && targets->exact == exact)
         return;
-    targets.reset();  // before the new ones take memory
+    views.drop_targets();  // before the new ones take memory
+    targets.reset();
     targets.emplace(traced, size_px, exact);
     has_history = false;
 }
@@ -175,15 +165,14 @@ void Renderer::Parts::upload_frame(const Simulation& simulation, const Settings&
     const auto entries = make_material_block(materials);
     material_block.upload(entries);
     const FrameBlock before = block;
-    block = make_frame_block(
-        {.settings = now,
-         .world_size_vox = simulation.size_vox(),
-         .metres_per_voxel = metres_per_voxel,
-         .seed = seed,
-         .frame_index = static_cast<std::uint32_t>(frame_index),
-         .frames_kept = static_cast<std::uint32_t>(std::min<std::uint64_t>(frames_kept, ~0u)),
-         .traced_px = targets->traced_px,
-         .shown_px = targets->shown_px});
+    block = make_frame_block({.settings = now,
+                              .world_size_vox = simulation.size_vox(),
+                              .metres_per_voxel = metres_per_voxel,
+                              .seed = seed,
+                              .frame_index = static_cast<std::uint32_t>(frame_index),
+                              .frames_kept = static_cast<std::uint32_t>(frames_kept),
+                              .traced_px = targets->traced_px,
+                              .shown_px = targets->shown_px});
     if (has_history) set_previous_eye(block, before);
     block.world_size_vox.w = has_history ? 1 : 0;
     frame_block.upload(std::span(&block, 1));
@@ -191,27 +180,39 @@ void Renderer::Parts::upload_frame(const Simulation& simulation, const Settings&
     material_block.bind_uniform(BINDING_MATERIALS);
 }
 
+void Renderer::Parts::update_emitters(const Simulation& simulation) {
+    built(emitters, bricks_of(simulation.size_vox()))
+        .record({.cells = simulation.cells(),
+                 .brick_changed = simulation.brick_changed(),
+                 .version = static_cast<std::uint32_t>(simulation.version())},
+                timers);
+}
+
 const gl::Texture& Renderer::Parts::accumulate_exact() {
     const Sums& previous = targets->sums[1 - current];
-    accumulate_pass().record({.radiance = targets->radiance,
-                              .previous_sum = previous.sum,
-                              .previous_correction = previous.correction,
-                              .rejected = rejected},
-                             {.sums = targets->sums_target[current]}, timers);
-    return targets->filtered[0];
+    built(accumulate)
+        .record({.radiance = targets->radiance,
+                 .previous_sum = previous.sum,
+                 .previous_correction = previous.correction,
+                 .previous_mean = targets->filtered[1 - current],
+                 .rejected = rejected},
+                {.sums = targets->sums_target[current]}, timers);
+    return targets->filtered[current];
 }
 
 const gl::Texture& Renderer::Parts::reproject_and_filter(const Simulation& simulation) {
     const gl::Texture* radiance = &targets->radiance;
     if (settings.history != History::None) {
         const bool blend = settings.history == History::Blend;
-        built(temporal[blend], blend)
+        const bool moments = settings.view == ViewKind::Variance;
+        built(temporal[blend][moments], blend, moments)
             .record({.current = surfaces(current, targets->radiance),
                      .previous = surfaces(1 - current, targets->frames[1 - current].history),
                      .brick_changed = simulation.brick_changed(),
                      .previous_version = static_cast<std::uint32_t>(world_version),
-                     .rejected = rejected},
-                    {.history = targets->history_target[current]}, timers);
+                     .rejected = rejected,
+                     .previous_moments = views.previous_moments(current)},
+                    {.history = views.history_target(*targets, current)}, timers);
         radiance = &targets->frames[current].history;
     }
     if (settings.filter == Filter::None) return *radiance;
@@ -229,6 +230,14 @@ const gl::Texture& Renderer::Parts::reproject_and_filter(const Simulation& simul
     return *radiance;
 }
 
+// The last frame: its radiance, or the view of it that is asked for.
+void Renderer::Parts::show(const gl::Framebuffer& target, bool raw) {
+    if (settings.view == ViewKind::Picture)
+        built(display[raw], raw).record({.radiance = *shown}, {.picture = target}, timers);
+    else
+        views.show(*targets, current, raw, target, timers);
+}
+
 Renderer::Renderer(const Scene& scene, gl::Timers& timers) : parts_(std::make_unique<Parts>(scene, timers)) {}
 
 Renderer::~Renderer() = default;
@@ -240,28 +249,39 @@ const gl::Texture& Renderer::render(const Simulation& simulation, const Settings
     p.upload_frame(simulation, settings);
     p.current = 1 - p.current;
 
-    p.trace_pass(p.features(simulation))
-        .record({.cells = simulation.cells(),
-                 .brick_distance = simulation.brick_distance(),
-                 .albedo_table = p.albedo.dielectric,
-                 .metal_albedo_table = p.albedo.metal,
-                 .glass_albedo_table = p.albedo.glass,
-                 .rejected = p.rejected},
-                {.target = p.targets->trace_target[p.current]}, p.timers);
+    const TraceFeatures features = p.features(simulation);
+    if (features.emitters) p.update_emitters(simulation);
+    p.views.prepare(settings, *p.targets, p.has_history);
+    p.trace_pass(features).record({.cells = simulation.cells(),
+                                   .brick_distance = simulation.brick_distance(),
+                                   .albedo_table = p.albedo.dielectric,
+                                   .metal_albedo_table = p.albedo.metal,
+                                   .glass_albedo_table = p.albedo.glass,
+                                   .emitters = features.emitters ? &*p.emitters : nullptr,
+                                   .rejected = p.rejected},
+                                  {.target = p.views.trace_target(*p.targets, p.current)}, p.timers);
     p.shown =
         settings.history == History::Exact ? &p.accumulate_exact() : &p.reproject_and_filter(simulation);
-    p.built(p.display[0], false)
-        .record({.radiance = *p.shown}, {.picture = p.targets->picture_target}, p.timers);
+    p.show(p.targets->picture_target, false);
 
     p.has_history = true;
     p.world_version = simulation.version();
     ++p.frame_index;
-    ++p.frames_kept;
+    p.frames_kept = std::min<std::uint64_t>(p.frames_kept + 1, FRAMES_KEPT_MAX);
     return p.targets->picture;
+}
+
+void Renderer::world_replaced() {
+    parts_->emitters.reset();
+    reset_history();
 }
 
 void Renderer::reset_history() {
     parts_->has_history = false;
+}
+
+void Renderer::set_frame_index(std::uint64_t index) {
+    parts_->frame_index = index;
 }
 
 Pick Renderer::pick(const Simulation& simulation, const Settings& settings, glm::ivec2 size_px,
@@ -308,7 +328,8 @@ ImageRgb32f Renderer::read_radiance() const {
     const gl::Framebuffer target("shown radiance", {&resolved});
     p.frame_block.upload(std::span(&p.block, 1));
     p.frame_block.bind_uniform(BINDING_FRAME);
-    p.built(p.display[1], true).record({.radiance = *p.shown}, {.picture = target}, p.timers);
+    p.material_block.bind_uniform(BINDING_MATERIALS);
+    p.show(target, true);
     std::vector<float> pixels(std::size_t{3} * size.x * size.y);
     resolved.download(std::span(pixels), GL_RGB, GL_FLOAT);
     ImageRgb32f image{size.x, size.y, {}};
@@ -334,7 +355,7 @@ std::uint64_t Renderer::rejected_samples() const {
 }
 
 double Renderer::compile_ms() const {
-    return parts_->compile_ms;
+    return parts_->compile_ms + parts_->views.compile_ms();
 }
 
 std::vector<std::string> Renderer::poll_reload() {
@@ -349,13 +370,15 @@ std::vector<std::string> Renderer::poll_reload() {
         if (pass) poll_program(pass->program());
     };
     for (auto& [features, pass] : parts_->trace) poll_program(pass.program());
+    parts_->views.for_each_program(poll_program);
     for (int i = 0; i < 2; ++i) {
-        poll(parts_->temporal[i]);
+        for (auto& pass : parts_->temporal[i]) poll(pass);
         poll(parts_->filter[i]);
         poll(parts_->display[i]);
         poll(parts_->pick[i]);
     }
     poll(parts_->accumulate);
+    if (parts_->emitters) parts_->emitters->poll_reload(messages);
     return messages;
 }
 

@@ -37,6 +37,11 @@ class Renderer {
 
     // History starts anew with the next frame.
     void reset_history();
+    // Another simulation, of the same scene, comes with the next frame.
+    void world_replaced();
+
+    // Of the next frame: its random numbers follow from it. For tests of counter wrap.
+    void set_frame_index(std::uint64_t index);
 
     // What lies under the pixel `at_px` (from the top left) of a picture of `size_px`. Waits for the GPU.
     // `through_water`: water is passed as if it were air, also by an eye within it.
@@ -45,7 +50,9 @@ class Renderer {
 
     // Of the last render(); both wait for the GPU.
     ImageRgba8 read_picture() const;
-    ImageRgb32f read_radiance() const;  // before exposure and tone mapping, at the shown size
+    // Before exposure and tone mapping, at the shown size; of a view its raw values (settings_list.h), -1
+    // where there is none.
+    ImageRgb32f read_radiance() const;
 
     std::uint64_t samples() const;           // kept per pixel (exact: all; else of the youngest frame's cap)
     std::uint64_t rejected_samples() const;  // not finite, since the start

@@ -26,10 +26,7 @@ void assign(const SettingInfo& info, Settings& settings, glm::dvec3 value) {
         if (!std::isfinite(value[c])) return;
     }
     value = glm::clamp(value, glm::dvec3(info.min), glm::dvec3(info.max));
-    if (is_quality(info))
-        apply_quality(settings, static_cast<Quality>(static_cast<int>(value.x)));
-    else
-        info.set(settings, value);
+    assign_setting(settings, info, value);
 }
 
 bool draw_number(const SettingInfo& info, const char* label, glm::dvec3& value) {

@@ -13,7 +13,7 @@ void tooltip(const std::string& text);
 bool button(const char* label, const char* help, bool enabled = true);
 
 // The widget that fits the setting's kind, with tooltip and a way back to its value in `defaults`. Typed
-// values are clamped to the setting's range; `quality` sets its whole preset.
+// values are clamped to the setting's range; they are assigned by assign_setting().
 void setting_row(const SettingInfo& info, Settings& settings, const Settings& defaults);
 
 }  // namespace tarn

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "measure/light_table.h"
 #include "measure/water_scenarios.h"
 
 namespace tarn {
@@ -54,6 +55,14 @@ void apply_camera(const std::string& text, Settings& settings) {
     }
 }
 
+void apply_view(const std::string& text, Settings& settings) {
+    const auto names = choice_names<ViewKind>();
+    const auto found = std::find(names.begin(), names.end(), text);
+    if (found == names.end())
+        fail("--view {}: no such view; allowed: one of {}", text, fmt::join(names, ", "));
+    settings.view = static_cast<ViewKind>(found - names.begin());
+}
+
 void water_options(CLI::App* water, Arguments& arguments) {
     water->add_option("--tier", arguments.tiers,
                       fmt::format("Tiers of the water, separated by commas (all): {}",
@@ -80,6 +89,30 @@ void water_options(CLI::App* water, Arguments& arguments) {
         footer += fmt::format("  {:<9} {}\n", scenario.name, scenario.what);
     footer += "Exit code 1: water or sand was lost or made. A missed target is in the table alone.";
     water->footer(footer);
+}
+
+void light_options(CLI::App* light, Arguments& arguments) {
+    light->add_option("--scenario", arguments.scenarios, "Scenarios below, separated by commas (all)");
+    light
+        ->add_option("--rounds", arguments.rounds,
+                     "Independent pictures by each strategy, taken in turn (12)")
+        ->check(CLI::Range(2, 100000));
+    light->add_option("--spp", arguments.spp_of_round, "Samples per pixel of a round (8)")
+        ->check(CLI::Range(1, 100000));
+    light
+        ->add_option("--set", arguments.set, "key=value over all strategies, repeatable; see `tarn settings`")
+        ->allow_extra_args(false);
+    light->add_option("--out", arguments.out, "Folder for light.csv; made where it is missing");
+    std::string footer = "Scenarios:\n";
+    for (const LightScenario& scenario : light_scenarios())
+        footer += fmt::format("  {:<9} {}\n", scenario.name, scenario.what);
+    footer +=
+        "off_by: distance of a mean from the first strategy's, in standard errors. equal_time_gain: variance "
+        "times\n"
+        "time of the first strategy over this one's. Exit code 1: a mean is off by more than 4, or a sample "
+        "was not\n"
+        "finite.";
+    light->footer(footer);
 }
 
 // CLI11 spreads its help over lines; an error is one.
@@ -138,6 +171,9 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
     render->add_option("--spp", arguments.spp, "Samples per pixel of --exact (64)")
         ->check(CLI::Range(1, 100000000))
         ->needs(exact);
+    render->add_option("--view", arguments.view,
+                       fmt::format("In place of the picture: {} (PNG: false colours, EXR: raw values)",
+                                   fmt::join(choice_names<ViewKind>(), ", ")));
     render->add_option("--camera", arguments.camera, "x,y,z,yaw,pitch[,fov] in place of the scene's");
     render->add_option("--stats", arguments.stats, "Write counts, times and settings as JSON");
 
@@ -155,13 +191,17 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
         "water", "Measure the water: levelling, rest, pressure, roundness, sand, mass at every tick");
     water_options(water, arguments);
 
+    CLI::App* light = app.add_subcommand(
+        "light", "Measure the ways of finding light: means, variances and times of strategies side by side");
+    light_options(light, arguments);
+
     app.add_subcommand("scenes", "List the built-in scenes");
     app.add_subcommand("settings", "List every setting: key, range, default, help");
     app.add_subcommand("doctor", "Check the driver and run a self-test; exit code 0 or 1");
 
     const auto named = [&](const CLI::App* command) { return command->check_name(argv[1]); };
     if (argc > 1 && *argv[1] != '-' && app.get_subcommands(named).empty())
-        fail("{}: no such command; allowed: play, render, simulate, water, scenes, settings, doctor",
+        fail("{}: no such command; allowed: play, render, simulate, water, light, scenes, settings, doctor",
              argv[1]);
     try {
         app.parse(argc, argv);
@@ -189,12 +229,14 @@ Scene scene_of(const Arguments& arguments) {
     Settings trial = base;
     for (const std::string& assignment : arguments.set) set_assignment(trial, assignment);
     if (!arguments.camera.empty()) apply_camera(arguments.camera, trial);
+    if (arguments.view) apply_view(*arguments.view, trial);
     if (arguments.exact && trial.history != History::Exact)
         fail("--set: --exact needs history=exact; render without --exact for another");
 
     Scene scene = load_scene(arguments.scene, base, arguments.seed);
     for (const std::string& assignment : arguments.set) set_assignment(scene.settings, assignment);
     if (!arguments.camera.empty()) apply_camera(arguments.camera, scene.settings);
+    if (arguments.view) apply_view(*arguments.view, scene.settings);
     return scene;
 }
 

@@ -16,15 +16,16 @@ struct Arguments {
     std::string scene = "lake";
     glm::ivec2 size_px{0};  // 0: chosen by the command
     std::string out, stats, cells, amounts, camera;
-    std::optional<std::string> quality;
+    std::optional<std::string> quality, view;
     std::vector<std::string> set;
     std::uint64_t ticks = 0;
     int frames = 1;
     bool exact = false;
     int spp = 64;
     std::optional<std::uint32_t> seed;
-    // Of `water`: comma-separated names; empty means all of them.
+    // Of `water` and `light`: comma-separated names; empty means all of them.
     std::string tiers, scenarios;
+    int rounds = 12, spp_of_round = 8;  // of `light`
     int seeds = 1;
     std::vector<int> sides_vox{64, 128, 256};  // of --speed
     bool reference = false, awake = false, speed = false;
@@ -34,7 +35,8 @@ struct Arguments {
 // allowed.
 std::optional<Arguments> parse_arguments(int argc, char** argv);
 
-// The scene that the arguments name, with their settings: preset, scene, --set, --camera, in this order.
+// The scene that the arguments name, with their settings: preset, scene, --set, --camera, --view, in this
+// order.
 Scene scene_of(const Arguments& arguments);
 
 }  // namespace tarn

@@ -9,6 +9,7 @@
 #include "app/stats.h"
 #include "cli/arguments.h"
 #include "cli/doctor.h"
+#include "cli/light_command.h"
 #include "cli/progress.h"
 #include "cli/water_command.h"
 #include "core/error.h"
@@ -159,6 +160,7 @@ int run_command_line(int argc, char** argv) {
     if (arguments->command == "render") return run_render(*arguments);
     if (arguments->command == "simulate") return run_simulate(*arguments);
     if (arguments->command == "water") return run_water_command(*arguments);
+    if (arguments->command == "light") return run_light_command(*arguments);
     if (arguments->command == "scenes") return run_scenes();
     if (arguments->command == "settings") return run_settings();
     return run_doctor();

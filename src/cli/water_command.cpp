@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "cli/names.h"
 #include "cli/progress.h"
 #include "core/error.h"
 #include "core/files.h"
@@ -17,29 +18,6 @@
 namespace tarn {
 
 namespace {
-
-// The parts of a list separated by commas; `all` where it is empty.
-std::vector<std::string> names_of(const std::string& option, const std::string& list,
-                                  const std::vector<std::string>& all) {
-    if (list.empty()) return all;
-    std::vector<std::string> names;
-    for (std::size_t begin = 0; begin <= list.size();) {
-        const std::size_t comma = std::min(list.find(',', begin), list.size());
-        const std::string name = list.substr(begin, comma - begin);
-        if (std::find(all.begin(), all.end(), name) == all.end())
-            fail("{} {}: no such name; allowed: {}", option, name, fmt::join(all, ", "));
-        if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-        begin = comma + 1;
-    }
-    return names;
-}
-
-void make_folder(const std::filesystem::path& folder) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error) fail("--out {}: cannot make the folder: {}", folder.string(), error.message());
-    for (const char* name : {"water.csv", "water.svg"}) check_writable(folder / name);
-}
 
 std::vector<WaterRun> run_all(const Arguments& arguments, const std::vector<std::string>& tiers,
                               const std::vector<std::string>& scenarios, const Settings& settings) {
@@ -72,7 +50,7 @@ int run_water_command(const Arguments& arguments) {
     const auto scenarios = names_of("--scenario", arguments.scenarios, all_scenarios);
     Settings settings;
     for (const std::string& assignment : arguments.set) set_assignment(settings, assignment);
-    if (!arguments.out.empty()) make_folder(arguments.out);
+    if (!arguments.out.empty()) make_folder(arguments.out, {"water.csv", "water.svg"});
 
     if (arguments.speed && arguments.reference) fail("--speed --reference: choose one; --speed times both");
     const std::unique_ptr<Platform> platform = arguments.reference ? nullptr : make_headless({1, 1}, 0);

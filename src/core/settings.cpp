@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/sun_clock.h"
 
 namespace tarn {
 
@@ -15,11 +16,14 @@ namespace {
 constexpr const char* water_tier_names[] = {"block", "level", "pressure"};
 constexpr const char* quality_names[] = {"baseline", "fast", "balanced", "quality", "exact"};
 constexpr const char* traversal_names[] = {"voxel", "distance"};
-constexpr const char* light_sampling_names[] = {"none", "sun", "sun_and_sky"};
+constexpr const char* light_sampling_names[] = {"none", "lights", "all"};
 constexpr const char* diffuse_sampling_names[] = {"cosine", "uniform"};
 constexpr const char* history_names[] = {"none", "blend", "count", "exact"};
 constexpr const char* filter_names[] = {"none", "gaussian", "edge_aware"};
+constexpr const char* sky_model_names[] = {"gradient", "preetham"};
 constexpr const char* tone_map_names[] = {"filmic", "linear"};
+constexpr const char* view_kind_names[] = {"picture", "albedo", "normal",  "depth",   "material",
+                                           "bounces", "steps",  "history", "variance"};
 
 // What each quality sets: every one names the same keys, so that the last chosen counts alone. baseline is
 // the method of the 2023 course work (BRIEF): every voxel stepped through, uniform diffuse directions, no
@@ -34,7 +38,7 @@ constexpr PresetRow presets[] = {{"max_bounces", {"8", "16", "24", "64", "1024"}
                                  {"samples_per_pixel", {"1", "1", "1", "2", "1"}},
                                  {"resolution_scale", {"1", "0.5", "1", "1", "1"}},
                                  {"traversal", {"voxel", "distance", "distance", "distance", "distance"}},
-                                 {"light_sampling", {"none", "sun", "sun", "sun", "sun"}},
+                                 {"light_sampling", {"none", "lights", "lights", "lights", "lights"}},
                                  {"diffuse_sampling", {"uniform", "cosine", "cosine", "cosine", "cosine"}},
                                  {"sun_through_water", {"false", "true", "true", "true", "true"}},
                                  {"straight_sunlight", {"false", "true", "true", "true", "false"}},
@@ -136,8 +140,16 @@ std::span<const char* const> choice_names<Filter>() {
     return filter_names;
 }
 template <>
+std::span<const char* const> choice_names<SkyModel>() {
+    return sky_model_names;
+}
+template <>
 std::span<const char* const> choice_names<ToneMap>() {
     return tone_map_names;
+}
+template <>
+std::span<const char* const> choice_names<ViewKind>() {
+    return view_kind_names;
 }
 
 std::span<const SettingInfo> setting_infos() {
@@ -253,14 +265,24 @@ std::string setting_text(const Settings& settings, const SettingInfo& info) {
     CHECK(false);
 }
 
+void assign_setting(Settings& settings, const SettingInfo& info, glm::dvec3 value) {
+    const std::string_view name = info.name;
+    if (name == "quality") {
+        apply_quality(settings, static_cast<Quality>(static_cast<int>(value.x)));
+        return;
+    }
+    info.set(settings, value);
+    if (name == "time_of_day_h") {
+        const SunPosition sun = sun_position(value.x);
+        settings.sun_azimuth_deg = static_cast<float>(sun.azimuth_deg);
+        settings.sun_elevation_deg = static_cast<float>(sun.elevation_deg);
+    }
+}
+
 void set_setting(Settings& settings, std::string_view name, std::string_view text) {
     const SettingInfo* info = find_setting(name);
     if (info == nullptr) fail("setting {}: no such setting; `tarn settings` lists them", name);
-    const glm::dvec3 value = parse_value(*info, text);
-    if (name == "quality")
-        apply_quality(settings, static_cast<Quality>(static_cast<int>(value.x)));
-    else
-        info->set(settings, value);
+    assign_setting(settings, *info, parse_value(*info, text));
 }
 
 void set_assignment(Settings& settings, std::string_view assignment) {

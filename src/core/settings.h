@@ -13,11 +13,13 @@ namespace tarn {
 enum class WaterTier { Block, Level, Pressure };
 enum class Quality { Baseline, Fast, Balanced, Quality, Exact };
 enum class Traversal { Voxel, Distance };
-enum class LightSampling { None, Sun, SunAndSky };
+enum class LightSampling { None, Lights, All };
 enum class DiffuseSampling { Cosine, Uniform };
 enum class History { None, Blend, Count, Exact };
 enum class Filter { None, Gaussian, EdgeAware };
+enum class SkyModel { Gradient, Preetham };
 enum class ToneMap { Filmic, Linear };
+enum class ViewKind { Picture, Albedo, Normal, Depth, Material, Bounces, Steps, History, Variance };
 
 // Names of an enum's values in order, as the command line and JSON spell them.
 template <typename Enum>
@@ -69,8 +71,11 @@ std::string allowed_values(const SettingInfo& info);
 // The value as `set_setting` reads it.
 std::string setting_text(const Settings& settings, const SettingInfo& info);
 
-// Parses `text` ("3", "0.5", "true", "block", "1,2,3") into the field `name`; setting `quality` applies the
-// whole preset. Throws Error naming the key, the reason and what is allowed.
+// Sets the field as its control does: `quality` applies its preset, `time_of_day_h` places the sun.
+void assign_setting(Settings& settings, const SettingInfo& info, glm::dvec3 value);
+
+// Parses `text` ("3", "0.5", "true", "block", "1,2,3") and assigns it to the field `name`. Throws
+// Error naming the key, the reason and what is allowed.
 void set_setting(Settings& settings, std::string_view name, std::string_view text);
 
 // "key=value" as given to --set.

@@ -27,8 +27,10 @@
     REAL(resolution_scale, 1, 0.25, 1, LIGHT, TARGETS, "Traced pixels per shown pixel, along each side.")    \
     CHOICE(Traversal, traversal, Distance, LIGHT, IMAGE,                                                     \
            "voxel: step through every voxel; distance: skip empty bricks. Same picture.")                    \
-    CHOICE(LightSampling, light_sampling, Sun, LIGHT, IMAGE,                                                 \
-           "Light sampled at every scattering: none (found by chance), the sun, or sun and sky.")            \
+    CHOICE(                                                                                                  \
+        LightSampling, light_sampling, Lights, LIGHT, IMAGE,                                                 \
+        "Light sampled at every scattering: none (found by chance), lights (the sun and emissive voxels), "  \
+        "or all (the sky too).")                                                                             \
     CHOICE(DiffuseSampling, diffuse_sampling, Cosine, LIGHT, IMAGE,                                          \
            "Diffuse directions: by their cosine, or uniform over the hemisphere (more noise).")              \
     BOOL(sun_through_water, true, LIGHT, IMAGE,                                                              \
@@ -66,16 +68,28 @@
     REAL(water_ior, 1.333, 0.75, 3, WATER, IMAGE, "Refractive index of water.")                              \
     COLOR(water_color, 0.7, 0.93, 0.96, 0.0001, 1, WATER, IMAGE,                                             \
           "Colour of white light after one metre of water.")                                                 \
+    CHOICE(SkyModel, sky_model, Gradient, SKY, IMAGE,                                                        \
+           "gradient: two colours and a sun, as set below; preetham: the light of a clear sky and its sun, " \
+           "computed from the sun's height and the haze.")                                                   \
+    REAL(turbidity, 2.5, 2, 10, SKY, IMAGE, "Haze of the sky preetham: 2 very clear, 10 hazy.")              \
+    REAL(sky_brightness, 1, 0, 1000, SKY, IMAGE, "Factor on the light of the sky preetham and its sun.")     \
+    REAL(time_of_day_h, 12, 0, 24, SKY, NONE,                                                                \
+         "Places the sun by the hour of 21 June at 50 degrees north, where noon is at 12 and -z is north; "  \
+         "azimuth and elevation can be moved afterwards.")                                                   \
     REAL(sun_azimuth_deg, 0, -360, 360, SKY, IMAGE, "Where the sun stands, as a camera's yaw.")              \
     REAL(sun_elevation_deg, 45, -90, 90, SKY, IMAGE, "Height of the sun, as a camera's pitch.")              \
     COLOR(sun_irradiance, 4, 3.6, 3, 0, 1000000, SKY, IMAGE,                                                 \
-          "Sunlight on a surface that faces it; black: no sun.")                                             \
+          "Sunlight of the gradient on a surface that faces it; black: no sun.")                             \
     REAL(sun_angular_radius_deg, 0.27, 0, 90, SKY, IMAGE, "Angular radius of the sun; 0: sharp shadows.")    \
-    COLOR(sky_zenith, 0.12, 0.28, 0.7, 0, 1000000, SKY, IMAGE, "Radiance of the sky overhead.")              \
+    COLOR(sky_zenith, 0.12, 0.28, 0.7, 0, 1000000, SKY, IMAGE, "Radiance of the gradient overhead.")         \
     COLOR(sky_horizon, 0.5, 0.68, 0.95, 0, 1000000, SKY, IMAGE,                                              \
-          "Radiance of the sky at and below the horizon.")                                                   \
+          "Radiance of the gradient at and below the horizon.")                                              \
     REAL(exposure_ev, 0, -20, 20, DISPLAY, NONE, "Exposure in stops.")                                       \
     CHOICE(ToneMap, tone_map, Filmic, DISPLAY, NONE, "filmic: soft highlights; linear: clipped at white.")   \
+    CHOICE(ViewKind, view, Picture, DISPLAY, NONE,                                                           \
+           "What is shown (V). Of the first surface: albedo, normal, depth, material. Of the last frame's "  \
+           "paths: bounces and steps through the world, rays to the sun included. Of what is averaged: "     \
+           "history (frames kept) and variance (of the mean's luminance, before the filter).")               \
     BOOL(overlay, true, DISPLAY, NONE, "Show times, ticks and counts in a corner.")                          \
     BOOL(vsync, true, DISPLAY, NONE, "Wait for the display between frames.")                                 \
     REAL(fly_speed_vox_s, 24, 0.1, 10000, DISPLAY, NONE,                                                     \

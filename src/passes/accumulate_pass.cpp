@@ -14,6 +14,7 @@ void AccumulatePass::record(const Inputs& inputs, const Outputs& outputs, gl::Ti
     inputs.radiance.bind(0);
     inputs.previous_sum.bind(1);
     inputs.previous_correction.bind(2);
+    inputs.previous_mean.bind(3);
     inputs.rejected.bind_storage(0);
     program_.use();
     outputs.sums.draw_fullscreen();

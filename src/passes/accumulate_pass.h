@@ -14,6 +14,7 @@ class AccumulatePass {
         const gl::Texture& radiance;
         const gl::Texture& previous_sum;
         const gl::Texture& previous_correction;
+        const gl::Texture& previous_mean;
         const gl::Buffer& rejected;
     };
     struct Outputs {

@@ -4,13 +4,23 @@
 
 namespace tarn {
 
-TemporalPass::TemporalPass(bool blend)
-    : program_({.label = blend ? "temporal blend" : "temporal",
-                .compute = {},
-                .vertex = "pass/fullscreen.vert",
-                .fragment = "pass/temporal.frag",
-                .defines = blend ? std::vector<std::pair<std::string, std::string>>{{"HISTORY_BLEND", "1"}}
-                                 : std::vector<std::pair<std::string, std::string>>{}}) {}
+namespace {
+
+gl::ProgramDesc describe(bool blend, bool moments) {
+    gl::ProgramDesc desc{.label = blend ? "temporal blend" : "temporal",
+                         .compute = {},
+                         .vertex = "pass/fullscreen.vert",
+                         .fragment = "pass/temporal.frag",
+                         .defines = {}};
+    if (blend) desc.defines.emplace_back("HISTORY_BLEND", "1");
+    if (moments) desc.defines.emplace_back("HISTORY_MOMENTS", "1");
+    return desc;
+}
+
+}  // namespace
+
+TemporalPass::TemporalPass(bool blend, bool moments)
+    : moments_(moments), program_(describe(blend, moments)) {}
 
 void TemporalPass::record(const Inputs& inputs, const Outputs& outputs, gl::Timers& timers) const {
     const auto scope = timers.scope("temporal");
@@ -24,6 +34,10 @@ void TemporalPass::record(const Inputs& inputs, const Outputs& outputs, gl::Time
     inputs.previous.normal.bind(BINDING_FIRST_INPUT + 6);
     inputs.previous.material.bind(BINDING_FIRST_INPUT + 7);
     inputs.rejected.bind_storage(0);
+    if (moments_) {
+        if (inputs.previous_moments != nullptr) inputs.previous_moments->bind(BINDING_FIRST_INPUT + 8);
+        program_.set("has_moments", inputs.previous_moments != nullptr ? 1 : 0);
+    }
     program_.set("previous_version", inputs.previous_version);
     program_.use();
     outputs.history.draw_fullscreen();

@@ -26,17 +26,20 @@ class TemporalPass {
         const gl::Texture& brick_changed;
         std::uint32_t previous_version;  // of the world, when the previous frame was made
         const gl::Buffer& rejected;
+        const gl::Texture* previous_moments = nullptr;  // with moments; null where the last frame kept none
     };
     struct Outputs {
-        const gl::Framebuffer& history;
+        const gl::Framebuffer& history;  // with moments: history, moments
     };
 
-    // blend: constant weight; otherwise a running mean.
-    explicit TemporalPass(bool blend);
+    // blend: constant weight; otherwise a running mean. moments: what the variance of the mean follows from,
+    // too.
+    TemporalPass(bool blend, bool moments);
     void record(const Inputs& inputs, const Outputs& outputs, gl::Timers& timers) const;
     gl::Program& program() { return program_; }
 
   private:
+    bool moments_;
     gl::Program program_;
 };
 

@@ -1,5 +1,6 @@
 #include "passes/trace_pass.h"
 
+#include "core/error.h"
 #include "shared/bindings.h"
 
 namespace tarn {
@@ -22,7 +23,10 @@ gl::ProgramDesc describe(const TraceFeatures& features) {
     define(features.metal, "TRACE_METAL");
     define(features.sun, "TRACE_SUN");
     define(features.sky, "TRACE_SKY");
+    define(features.emitters, "TRACE_EMITTERS");
+    define(features.clear_sky, "TRACE_PREETHAM");
     define(features.smooth_water, "TRACE_SMOOTH_WATER");
+    define(features.count, "TRACE_COUNT");
     return desc;
 }
 
@@ -37,6 +41,10 @@ void TracePass::record(const Inputs& inputs, const Outputs& outputs, gl::Timers&
     if (features_.coated) inputs.albedo_table.bind(BINDING_ALBEDO_TABLE);
     if (features_.metal) inputs.metal_albedo_table.bind(BINDING_METAL_ALBEDO_TABLE);
     if (features_.rough) inputs.glass_albedo_table.bind(BINDING_GLASS_ALBEDO_TABLE);
+    if (features_.emitters) {
+        CHECK(inputs.emitters != nullptr);
+        inputs.emitters->bind();
+    }
     inputs.rejected.bind_storage(0);
     program_.use();
     outputs.target.draw_fullscreen();

@@ -7,6 +7,7 @@
 #include "gl/program.h"
 #include "gl/texture.h"
 #include "gl/timers.h"
+#include "passes/emitters.h"
 
 namespace tarn {
 
@@ -19,7 +20,10 @@ struct TraceFeatures {
     bool metal = false;         // metals among them
     bool sun = false;           // sampled
     bool sky = false;           // sampled
+    bool emitters = false;      // emissive voxels, sampled
+    bool clear_sky = false;     // of Preetham, Shirley & Smits; otherwise two colours
     bool smooth_water = false;  // levels of neighbouring voxels shaded as one surface; with clear
+    bool count = false;         // bounces and steps, for views
     auto operator<=>(const TraceFeatures&) const = default;
 };
 
@@ -31,10 +35,11 @@ class TracePass {
         const gl::Texture& albedo_table;
         const gl::Texture& metal_albedo_table;
         const gl::Texture& glass_albedo_table;
-        const gl::Buffer& rejected;  // one uint, counted up
+        const EmittersPass* emitters;  // null unless the feature is on
+        const gl::Buffer& rejected;    // one uint, counted up
     };
     struct Outputs {
-        const gl::Framebuffer& target;  // radiance, position, normal, material
+        const gl::Framebuffer& target;  // radiance, position, normal, material; with count: counts
     };
 
     explicit TracePass(const TraceFeatures& features);

@@ -55,6 +55,7 @@ constexpr KeyBinding key_bindings[] = {
     {GLFW_KEY_F2, Key::Settings},
     {GLFW_KEY_F3, Key::Overlay},
     {GLFW_KEY_F12, Key::Screenshot},
+    {GLFW_KEY_V, Key::View},
     {GLFW_KEY_TAB, Key::MouseLook},
     {GLFW_KEY_M, Key::MouseLook},
     {GLFW_KEY_F, Key::MouseLookHold},

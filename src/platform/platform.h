@@ -31,6 +31,7 @@ enum class Key {
     Settings,
     Overlay,
     Screenshot,
+    View,           // the next one; with Fast the one before
     MouseLook,      // toggles
     MouseLookHold,  // while held
     Brush,

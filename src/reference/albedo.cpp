@@ -121,7 +121,7 @@ double ggx_glass_albedo(double cos_o, double alpha, double eta, int n) {
 }
 
 std::vector<float> make_albedo_table() {
-    constexpr int quadrature = 32;
+    constexpr int quadrature = 24;
     std::vector<float> table;
     table.reserve(std::size_t{2} * albedo_cos_count * albedo_roughness_count * albedo_eta_count);
     for (int e = 0; e < albedo_eta_count; ++e) {

@@ -21,7 +21,7 @@ double ggx_glass_albedo(double cos_o, double alpha, double eta, int n);
 // the table of metals.
 constexpr int albedo_cos_count = 32;
 constexpr int albedo_roughness_count = 32;
-constexpr int albedo_eta_count = 33;
+constexpr int albedo_eta_count = 65;
 
 // Pairs (E(cos), Eavg), angle fastest, then roughness, then eta; for eta >= 1 E is less the reflectance of
 // ALBEDO_FACET_SPREAD. Eavg integrates the table's own interpolation, so that a white base under it conserves

@@ -1,5 +1,6 @@
 #include "world/scene.h"
 
+#include <algorithm>
 #include <new>
 
 #include "core/assets.h"
@@ -26,8 +27,15 @@ void read_setting(const JsonNode& object, std::string_view key, std::string_view
     if (!node) return;
     const SettingInfo* info = find_setting(setting);
     CHECK(info != nullptr);
-    info->set(settings, info->components() == 3 ? node->vec3(info->min, info->max)
-                                                : glm::dvec3(node->number(info->min, info->max)));
+    if (info->kind == SettingKind::Choice) {
+        const auto found = std::find(info->choices.begin(), info->choices.end(), node->text());
+        if (found == info->choices.end()) node->refuse("no such choice", allowed_values(*info));
+        info->set(settings, glm::dvec3(static_cast<double>(found - info->choices.begin())));
+        return;
+    }
+    assign_setting(settings, *info,
+                   info->components() == 3 ? node->vec3(info->min, info->max)
+                                           : glm::dvec3(node->number(info->min, info->max)));
 }
 
 void read_light_and_camera(const JsonNode& root, Settings& settings) {
@@ -39,16 +47,21 @@ void read_light_and_camera(const JsonNode& root, Settings& settings) {
         read_setting(*camera, "fov_deg", "camera_fov_deg", settings);
     }
     if (const auto sun = root.find("sun")) {
-        sun->allow_only({"azimuth_deg", "elevation_deg", "irradiance", "angular_radius_deg"});
+        sun->allow_only(
+            {"time_of_day_h", "azimuth_deg", "elevation_deg", "irradiance", "angular_radius_deg"});
+        read_setting(*sun, "time_of_day_h", "time_of_day_h", settings);
         read_setting(*sun, "azimuth_deg", "sun_azimuth_deg", settings);
         read_setting(*sun, "elevation_deg", "sun_elevation_deg", settings);
         read_setting(*sun, "irradiance", "sun_irradiance", settings);
         read_setting(*sun, "angular_radius_deg", "sun_angular_radius_deg", settings);
     }
     if (const auto sky = root.find("sky")) {
-        sky->allow_only({"zenith", "horizon"});
+        sky->allow_only({"zenith", "horizon", "model", "turbidity", "brightness"});
         read_setting(*sky, "zenith", "sky_zenith", settings);
         read_setting(*sky, "horizon", "sky_horizon", settings);
+        read_setting(*sky, "model", "sky_model", settings);
+        read_setting(*sky, "turbidity", "turbidity", settings);
+        read_setting(*sky, "brightness", "sky_brightness", settings);
     }
 }
 

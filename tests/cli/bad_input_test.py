@@ -16,7 +16,7 @@ WITHOUT_DRIVER = {"__EGL_VENDOR_LIBRARY_FILENAMES": "/nonexistent", "LIBGL_DRIVE
 class BadArguments(Case):
     def test_commands_and_options(self):
         self.refuse([], "subcommand", "--help")
-        self.refuse(["dig"], "dig", "play, render, simulate, water, scenes, settings, doctor")
+        self.refuse(["dig"], "dig", "play, render, simulate, water, light, scenes, settings, doctor")
         self.refuse(["render", "--scene", "flat"], "--out", "required")
         self.refuse(["simulate", "--scene", "flat"], "--ticks", "required")
         self.refuse(["simulate", "--ticks", "1"], "--scene", "required")
@@ -24,6 +24,10 @@ class BadArguments(Case):
         self.refuse([*RENDER, "--out", "a.png", "--out", "b.png"], "--out")
         self.refuse([*RENDER, "--out", "a.png", "--spp", "3"], "--spp", "--exact")
         self.refuse([*RENDER, "--out", "a.png", "--exact", "--frames", "3"], "--exact", "--frames")
+        for view in ("x-ray", "Depth", "3", "depth,normal"):
+            self.refuse([*RENDER, "--out", "a.png", f"--view={view}"], "--view", "picture, albedo, normal, depth")
+        self.refuse([*RENDER, "--out", "a.png", "--view="], "--view", "missing")
+        self.refuse([*SIMULATE, "--view", "depth"], "--view")
         self.refuse([*RENDER, "--out", "a.png", "--exact", "--quality", "fast"], "--quality fast", "exact")
 
     def test_numbers(self):

@@ -192,6 +192,21 @@ class Pictures(Case):
                        (*view, "--ticks", "20"), (*view, "--set", "sky_zenith=1,0,0"), ("--camera", "4,5,14,0,-25")):
             self.assertNotEqual(picture(*change), usual, change)
 
+    def test_views(self):
+        pictures = {self.render("a.exr")}
+        for view in ("albedo", "normal", "depth", "material", "bounces", "steps", "history", "variance"):
+            data = self.render("a.exr", "--view", view)
+            self.assertEqual(data, self.render("b.exr", "--set", f"view={view}"), view)
+            self.assertEqual(data, self.render("b.exr", "--set", "view=depth", "--view", view), view)
+            self.assertNotIn(data, pictures, view)
+            pictures.add(data)
+        self.assertIn(self.render("b.exr", "--view", "picture"), pictures)
+        # Nothing but wall: one colour, neither black nor white.
+        _, _, channels, rows = read_png(self.render("a.png", "--view", "material"))
+        colours = {bytes(row[x:x + 3]) for row in rows for x in range(0, len(row), channels)}
+        self.assertEqual(len(colours), 1)
+        self.assertNotIn(colours.pop(), (bytes(3), b"\xff\xff\xff"))
+
     def test_ticks_per_frame(self):
         self.write("s.json", json.dumps(SMALL))
         for per_frame, ticks in ((0, 5), (3, 17)):

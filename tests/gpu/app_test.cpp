@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <set>
 
 #include "core/error.h"
 #include "gpu/gl_test.h"
@@ -252,6 +253,31 @@ TEST_F(AppTest, HeadlessRunsTicksPerFrameAndNoClock) {
     moving.frame(input);
     moving.frame(input);
     EXPECT_EQ(moving.simulation().tick(), 6u);
+}
+
+TEST_F(AppTest, AKeyShowsOneViewAfterAnotherAndKeepsTheHistory) {
+    Scene scene = meadow();
+    App app(scene, scene.settings, interactive());
+    play(app, pressing(Key::Pause));
+    std::set<std::string> pictures;
+    const auto seen = [&] {
+        const ImageRgba8 picture = app.renderer().read_picture();
+        return std::string(picture.pixels.begin(), picture.pixels.end());
+    };
+    const std::size_t count = choice_names<ViewKind>().size();
+    for (std::size_t i = 0; i < count; ++i) {
+        EXPECT_EQ(app.settings().view, static_cast<ViewKind>(i));
+        EXPECT_TRUE(pictures.insert(seen()).second) << "a view that looks like another";
+        play(app, pressing(Key::View));
+    }
+    EXPECT_EQ(app.settings().view, ViewKind::Picture);
+    EXPECT_EQ(app.renderer().samples(), count + 1) << "every frame is kept";
+    Input back = pressing(Key::View);
+    back.down[static_cast<std::size_t>(Key::Fast)] = true;
+    play(app, back);
+    EXPECT_EQ(app.settings().view, ViewKind::Variance);
+    play(app, back);
+    EXPECT_EQ(app.settings().view, ViewKind::History);
 }
 
 TEST_F(AppTest, PicturesNeverOverwriteOneAnother) {

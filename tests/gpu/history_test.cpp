@@ -20,15 +20,6 @@ double red_variance(const Picture& picture) {
     return std::pow(picture.standard_error(), 2) * picture.image.width * picture.image.height;
 }
 
-// a (1 - w) + b w
-Picture mixed(const Picture& a, const Picture& b, double w) {
-    Picture result = a;
-    for (std::size_t i = 0; i < a.image.pixels.size(); ++i)
-        result.image.pixels[i] =
-            static_cast<float>(a.image.pixels[i] + w * (double{b.image.pixels[i]} - a.image.pixels[i]));
-    return result;
-}
-
 TEST_F(HistoryTest, CountedHistoryIsTheMeanOfItsFramesUpToTheCap) {
     Studio single(noisy_floor());
     Studio counted(noisy_floor());

@@ -34,7 +34,7 @@ TEST_F(LightTest, FurnaceWithLightSamplingAndRouletteIsTheSameInTheMean) {
         scene.settings.sky_zenith = scene.settings.sky_horizon = glm::vec3(7);
         const Picture picture = picture_of(scene, 40, {64, 64}, [](Settings& s) {
             s.max_bounces = 6;
-            s.light_sampling = LightSampling::SunAndSky;
+            s.light_sampling = LightSampling::All;
             s.roulette_after = 0;
         });
         EXPECT_NEAR(picture.mean().x, 1 - std::pow(0.5, 7), 4 * picture.standard_error());
@@ -167,7 +167,7 @@ TEST_F(LightTest, SamplingTheSunAndTheSkyChangesNoMean) {
                               [&](Settings& s) { s.light_sampling = sampling; });
         };
         const Picture chance = with(LightSampling::None);
-        for (const LightSampling sampling : {LightSampling::Sun, LightSampling::SunAndSky}) {
+        for (const LightSampling sampling : {LightSampling::Lights, LightSampling::All}) {
             const Picture sampled = with(sampling);
             // The pixels differ among themselves by more than their noise: this error is an upper bound.
             const double error = std::hypot(chance.standard_error(), sampled.standard_error());
@@ -186,7 +186,7 @@ TEST_F(LightTest, TheSunThroughWaterAgreesWithChance) {
                     scene.cells.at({x, y, z}) = static_cast<std::uint8_t>(water_cell(y == 5 ? 9 : 16));
     const auto with = [&](bool connected) {
         return picture_of(scene, 96, {64, 64}, [&](Settings& s) {
-            s.light_sampling = connected ? LightSampling::Sun : LightSampling::None;
+            s.light_sampling = connected ? LightSampling::Lights : LightSampling::None;
             s.sun_through_water = connected;
         });
     };

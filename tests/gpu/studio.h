@@ -63,8 +63,17 @@ inline Scene sunlit_slabs() {
                   {"box": {"min": [4, 11, 10], "max": [10, 12, 15], "material": "dirt"}},
                   {"box": {"min": [13, 15, 6], "max": [16, 16, 18], "material": "dirt"}}]})");
     scene.settings.max_bounces = 1;
-    scene.settings.light_sampling = LightSampling::Sun;
+    scene.settings.light_sampling = LightSampling::Lights;
     return scene;
+}
+
+// a (1 - w) + b w
+inline Picture mixed(const Picture& a, const Picture& b, double w) {
+    Picture result = a;
+    for (std::size_t i = 0; i < a.image.pixels.size(); ++i)
+        result.image.pixels[i] =
+            static_cast<float>(a.image.pixels[i] + w * (double{b.image.pixels[i]} - a.image.pixels[i]));
+    return result;
 }
 
 inline bool all_finite(const Picture& picture) {

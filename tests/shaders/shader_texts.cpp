@@ -19,7 +19,8 @@ namespace {
 using Defines = std::vector<std::pair<std::string, std::string>>;
 
 // Macros that stand for a number, with every value that the passes give them.
-const std::map<std::string, std::vector<std::string>> numbers = {{"AXIS", {"0", "1", "2"}}};
+const std::map<std::string, std::vector<std::string>> numbers = {
+    {"AXIS", {"0", "1", "2"}}, {"SHOWN_VIEW", {"1", "2", "3", "4", "5", "6", "7", "8"}}};
 
 std::set<std::string> names_in(const std::string& text, const char* pattern) {
     const std::regex regex(pattern, std::regex::ECMAScript | std::regex::multiline);

@@ -1,9 +1,12 @@
-// The long run of conservation_test: 10,000 ticks of every built-in scene, a minute or so a scene without a
-// GPU. It runs by its own command: ctest -C soak -L soak.
+// The long runs, by their own command: ctest -C soak -L soak. Of conservation_test: 10,000 ticks of every
+// built-in scene, a minute or so a scene without a GPU. Of extremes_history_test: a million frames of exact
+// mode's mean.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdio>
 
+#include "gpu/accumulator.h"
 #include "gpu/conservation.h"
 #include "gpu/gl_test.h"
 
@@ -29,6 +32,36 @@ TEST_F(SoakTest, every_scene_keeps_its_water_and_sand_for_10000_ticks) {
                    flow.sprung_sand_voxels, flow.drained_sand_voxels);
         std::fflush(stdout);
     }
+}
+
+TEST_F(SoakTest, a_mean_of_a_million_frames_is_their_mean) {
+    const NoisyFrames frames;
+    Accumulator sums;
+    std::vector<glm::dvec3> total(Accumulator::pixels, glm::dvec3(0));
+    constexpr std::uint32_t count = 1u << 20;
+    for (std::uint32_t k = 0; k < count; ++k) {
+        sums.add(frames.texture(k));
+        for (int i = 0; i < Accumulator::pixels; ++i) total[i] += frames.value_of(k, i);
+    }
+    const Accumulator::Values mean = sums.mean();
+    double worst = 0;
+    double worst_variance = 0;
+    for (int i = 0; i < Accumulator::pixels; ++i) {
+        double deviations = 0;
+        for (int k = 0; k < 3; ++k) {
+            const glm::dvec3 d = frames.value_of(k, i) - total[i] / static_cast<double>(count);
+            deviations += std::pow(glm::dot(d, glm::dvec3(0.2126, 0.7152, 0.0722)), 2) / 3;
+        }
+        for (int c = 0; c < 3; ++c) worst = std::max(worst, std::abs(mean[i][c] / (total[i][c] / count) - 1));
+        worst_variance = std::max(worst_variance, std::abs(sums.variance(i) / deviations - 1));
+    }
+    fmt::print("{} frames: the mean is off by {:.1e} of itself, the variance by {:.1e}\n", count, worst,
+               worst_variance);
+    // Two roundings to float32: of the sum with its correction, and of the quotient.
+    EXPECT_LE(worst, 1.2e-7);
+    // The three frames come up equally often but for one; deviations are from a float32 mean.
+    EXPECT_LE(worst_variance, 5e-6);
+    EXPECT_EQ(sums.rejected(), 0u);
 }
 
 }  // namespace

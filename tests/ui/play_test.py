@@ -3,6 +3,7 @@
 panels; then asserts the counts of cells. Arguments: the program, and a folder for the pictures taken on the way.
 
 No fixed sleeps: what the app has seen is read from the .json that F12 writes beside its pictures."""
+import ctypes
 import json
 import os
 import pathlib
@@ -67,6 +68,16 @@ class Display:
         result = self.run("xdotool", *[str(word) for word in xdotool])
         check(result.returncode == 0, f"xdotool {xdotool}: {result.stderr}")
 
+    def set_wm_state(self, window, state):
+        """What a window manager would do, which Xvfb has none of; state: 1 normal, 3 iconic (ICCCM 4.1.3.1)."""
+        x11 = ctypes.CDLL("libX11.so.6")
+        x11.XOpenDisplay.restype = ctypes.c_void_p
+        x11.XInternAtom.restype = ctypes.c_ulong
+        server = ctypes.c_void_p(x11.XOpenDisplay(self.environment["DISPLAY"].encode()))
+        atom = ctypes.c_ulong(x11.XInternAtom(server, b"WM_STATE", 0))
+        x11.XChangeProperty(server, ctypes.c_ulong(int(window)), atom, atom, 32, 0, (ctypes.c_long * 2)(state, 0), 2)
+        x11.XCloseDisplay(server)
+
     def photograph(self, path):
         crop = f"{SIZE[0]}x{SIZE[1]}+0+0"
         result = self.run("import", "-window", "root", "-crop", crop, "+repage", str(path))
@@ -130,6 +141,16 @@ class Game:
         self.display.do("mouseup", button)
         self.state()
 
+    def cpu_s(self):
+        fields = pathlib.Path(f"/proc/{self.process.pid}/stat").read_text().rsplit(")", 1)[1].split()
+        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+    def is_idle(self):
+        """True where a second of time took next to none of the processor's: no frame is drawn."""
+        before = self.cpu_s()
+        time.sleep(1)
+        return self.cpu_s() - before < 0.05
+
     def quit(self):
         self.display.do("key", "ctrl+q")
         check(self.process.wait(PATIENCE_S) == 0, f"tarn ended with code {self.process.returncode}")
@@ -173,6 +194,24 @@ def build(game):
     game.photograph("3-hole")
 
 
+def look_at_views(game):
+    """V shows one view after another, Shift+V the one before."""
+    game.press("p")
+    seen = [game.photograph("3-picture")]
+    for view in ("albedo", "normal", "depth", "material", "bounces", "steps", "history", "variance"):
+        game.press("v")
+        check(game.state()["settings"]["view"] == view, f"V does not show {view}")
+        photo = game.photograph(f"3-{view}")
+        for other in seen[:1] + seen[-1:]:
+            check(differing_pixels(photo, other) > 3000, f"{view} looks like {other.stem}")
+        seen.append(photo)
+    game.press("shift+v")
+    check(game.state()["settings"]["view"] == "history", "Shift+V does not go back")
+    game.press("v", "v")
+    check(game.state()["settings"]["view"] == "picture", "V does not come round")
+    game.press("p")
+
+
 def open_panels(game):
     plain = game.photograph("4-plain")
     game.press("F1")
@@ -190,6 +229,21 @@ def open_panels(game):
     game.point(240, 140)
     game.display.do("click", 2)
     game.state()
+
+
+def minimise(game):
+    """A window that nobody sees draws nothing, and owes no time when it comes back."""
+    before = game.state()
+    wait_for("the window to draw", lambda: not game.is_idle())
+    game.display.set_wm_state(game.window, 3)
+    game.display.do("windowunmap", game.window)
+    wait_for("the minimised window to rest", game.is_idle)
+    game.display.set_wm_state(game.window, 1)
+    game.display.do("windowmap", game.window)
+    game.display.do("windowmove", game.window, 0, 0)
+    game.display.do("windowfocus", game.window)
+    wait_for("the picture", lambda: colors(game.photograph("7-restored")) > 50)
+    check(game.state()["settings"] == before["settings"], "a minimised window changed settings")
 
 
 def resize(game):
@@ -213,7 +267,9 @@ def main():
         try:
             fly_and_look(game)
             build(game)
+            look_at_views(game)
             open_panels(game)
+            minimise(game)
             resize(game)
             last = game.quit()
         finally:

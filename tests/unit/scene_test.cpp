@@ -132,6 +132,11 @@ TEST(SceneErrors, NumbersMustFitTheirRanges) {
         {scene_with(R"("sun": {"irradiance": [-1, 0, 0]})"), {"sun.irradiance[0]: -1 is out of range"}},
         {scene_with(R"("sky": {"zenith": [0, 0]})"),
          {"sky.zenith: an array of 2 where 3 numbers are needed"}},
+        {scene_with(R"("sky": {"model": "blue"})"),
+         {"sky.model: no such choice", "one of gradient, preetham"}},
+        {scene_with(R"("sky": {"model": 1})"), {"sky.model: 1 where text is needed"}},
+        {scene_with(R"("sky": {"turbidity": 1})"), {"sky.turbidity: 1 is out of range", "2 to 10"}},
+        {scene_with(R"("sun": {"time_of_day_h": 25})"), {"sun.time_of_day_h: 25", "0 to 24"}},
         {scene_with(R"("materials": {"stone": {"ior": 0.7}})"), {"materials.stone.ior: 0.7", "0.75 to 3"}},
         {scene_with(R"("materials": {"stone": {"roughness": 1.1}})"),
          {"materials.stone.roughness: 1.1", "0 to 1"}},
@@ -206,6 +211,23 @@ TEST(SceneErrors, UnknownScenesAndFilesAreNamed) {
     EXPECT_NE(message("no/such.json").find("no/such.json: cannot read"), std::string::npos);
     EXPECT_NE(message("nosuch.json").find("nosuch.json: cannot read"), std::string::npos);
     EXPECT_NE(message("/").find("is a directory"), std::string::npos);
+}
+
+TEST(Scene, TheHourPlacesTheSunWhereTheFileDoesNot) {
+    const auto settings_of = [](const std::string& rest) {
+        return parse_scene(R"({"size": [1, 1, 1], )" + rest + "}", "test", Settings{}).settings;
+    };
+    const Settings clear = settings_of(
+        R"("sky": {"model": "preetham", "turbidity": 4, "brightness": 2}, "sun": {"time_of_day_h": 12})");
+    EXPECT_EQ(clear.sky_model, SkyModel::Preetham);
+    EXPECT_EQ(clear.turbidity, 4);
+    EXPECT_EQ(clear.sky_brightness, 2);
+    EXPECT_EQ(clear.sun_azimuth_deg, 180);
+    EXPECT_NEAR(clear.sun_elevation_deg, 63.44, 1e-4);
+    const Settings both = settings_of(R"("sun": {"elevation_deg": 7, "time_of_day_h": 12})");
+    EXPECT_EQ(both.sky_model, SkyModel::Gradient);
+    EXPECT_EQ(both.sun_elevation_deg, 7);
+    EXPECT_EQ(both.sun_azimuth_deg, 180);
 }
 
 TEST(Scene, HoldsWhatTheFileSays) {

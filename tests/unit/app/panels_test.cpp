@@ -7,8 +7,10 @@
 
 #include <functional>
 #include <set>
+#include <vector>
 
 #include "app/setting_row.h"
+#include "core/sun_clock.h"
 
 namespace tarn {
 namespace {
@@ -112,6 +114,45 @@ TEST_F(PanelsTest, EverySettingHasATooltipAndAWayBack) {
         EXPECT_GE(found.hovered.size(), controls) << info.name;
         EXPECT_TRUE(found.silent.empty()) << info.name;
     }
+}
+
+TEST_F(PanelsTest, DraggingTheTimeOfDayMovesTheSunAndMovingTheSunLeavesTheClock) {
+    const auto drag = [&](const char* name) {
+        const SettingInfo& info = *find_setting(name);
+        const auto draw = [&] {
+            ImGui::SetNextWindowPos({10, 10});
+            ImGui::SetNextWindowSize({420, 60});
+            ImGui::Begin("row", nullptr, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoScrollbar);
+            setting_row(info, settings, defaults);
+            ImGui::End();
+        };
+        frame(draw);
+        frame(draw);
+        ImGuiIO& io = ImGui::GetIO();
+        const ImRect area = ImGui::FindWindowByName("row")->ContentRegionRect;
+        io.MousePos = {area.Min.x + 100, area.Min.y + 8};
+        frame(draw);
+        io.MouseDown[0] = true;
+        std::vector<double> values;
+        for (int step = 0; step < 6; ++step) {
+            io.MousePos.x += 12;
+            frame(draw);
+            values.push_back(info.get(settings).x);
+            if (std::string_view(name) != "time_of_day_h") continue;
+            EXPECT_EQ(settings.sun_azimuth_deg, static_cast<float>(sun_position(values.back()).azimuth_deg));
+            EXPECT_EQ(settings.sun_elevation_deg,
+                      static_cast<float>(sun_position(values.back()).elevation_deg));
+        }
+        io.MouseDown[0] = false;
+        frame(draw);
+        EXPECT_GE(std::set<double>(values.begin(), values.end()).size(), 5u) << name;
+    };
+    drag("time_of_day_h");
+    const float hour = settings.time_of_day_h;
+    const float azimuth = settings.sun_azimuth_deg;
+    drag("sun_elevation_deg");
+    EXPECT_EQ(settings.time_of_day_h, hour);
+    EXPECT_EQ(settings.sun_azimuth_deg, azimuth);
 }
 
 TEST_F(PanelsTest, HelpIsDrawnWithoutAskingForAnything) {

@@ -1,0 +1,77 @@
+#include "app/views.h"
+
+#include "app/stopwatch.h"
+
+namespace tarn {
+
+Views::Targets::Targets(const RenderTargets& targets)
+    : counts({.label = "counts", .format = GL_RG32F, .size = {targets.traced_px, 0}}) {
+    for (int i = 0; i < 2; ++i) {
+        const FrameTargets& frame = targets.frames[i];
+        moments[i] = gl::Texture({.label = "moments", .format = GL_RGBA32F, .size = {targets.traced_px, 0}});
+        trace[i] = gl::Framebuffer("trace with counts", {&targets.radiance, &frame.position, &frame.normal,
+                                                         &frame.material, &counts});
+        history[i] = gl::Framebuffer("history with moments", {&frame.history, &moments[i]});
+    }
+}
+
+void Views::prepare(const Settings& settings, const RenderTargets& targets, bool has_history) {
+    const bool keeps_moments = settings.view == ViewKind::Variance &&
+                               (settings.history == History::Blend || settings.history == History::Count);
+    const bool kept_moments = view_ == ViewKind::Variance && history_ == settings.history;
+    has_moments_ = targets_ && keeps_moments && kept_moments && has_history;
+    view_ = settings.view;
+    history_ = settings.history;
+    if ((counts_paths(view_) || keeps_moments) && !targets_) targets_.emplace(targets);
+}
+
+void Views::drop_targets() {
+    targets_.reset();
+}
+
+const gl::Framebuffer& Views::trace_target(const RenderTargets& targets, int current) const {
+    return counts_paths(view_) ? targets_->trace[current] : targets.trace_target[current];
+}
+
+const gl::Framebuffer& Views::history_target(const RenderTargets& targets, int current) const {
+    return view_ == ViewKind::Variance ? targets_->history[current] : targets.history_target[current];
+}
+
+const gl::Texture* Views::previous_moments(int current) const {
+    return has_moments_ ? &targets_->moments[1 - current] : nullptr;
+}
+
+ViewPass& Views::pass(bool raw) {
+    const auto key = std::tuple(view_, history_, raw);
+    const auto found = passes_.find(key);
+    if (found != passes_.end()) return found->second;
+    const Stopwatch watch;
+    ViewPass& made = passes_.try_emplace(key, view_, history_, raw).first->second;
+    compile_ms_ += watch.ms();
+    return made;
+}
+
+void Views::show(const RenderTargets& targets, int current, bool raw, const gl::Framebuffer& target,
+                 gl::Timers& timers) {
+    const FrameTargets& frame = targets.frames[current];
+    const Sums& sums = targets.sums[current];
+    const gl::Texture* history = nullptr;
+    const gl::Texture* moments = nullptr;
+    if (history_ == History::Exact) {
+        history = &targets.filtered[current];
+        moments = &sums.sum;
+    } else if (history_ != History::None) {
+        history = &frame.history;
+        if (targets_) moments = &targets_->moments[current];
+    }
+    pass(raw).record({.position = frame.position,
+                      .normal = frame.normal,
+                      .material = frame.material,
+                      .counts = targets_ ? &targets_->counts : nullptr,
+                      .history = history,
+                      .moments = moments,
+                      .correction = history_ == History::Exact ? &sums.correction : nullptr},
+                     {.picture = target}, timers);
+}
+
+}  // namespace tarn
