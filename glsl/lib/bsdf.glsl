@@ -7,13 +7,21 @@
 const float COS_GRAZING = 1e-12;
 
 #ifdef TRACE_COATED
-// E(cos, alpha, eta) of the GGX interface of a dielectric: r; its cosine-weighted mean Eavg: g. Axes: sqrt(cos),
-// roughness, x of ALBEDO_ETA_RANGE (src/reference/albedo.h makes it).
+// E(cos, alpha, eta) of the GGX interface of a dielectric: r, for eta >= 1 less a reflectance of Fresnel; its
+// cosine-weighted mean Eavg: g. Axes: sqrt(cos), or that of metals for eta >= 1; roughness; x of ALBEDO_ETA_RANGE
+// (src/reference/albedo.h makes it).
 layout(binding = BINDING_ALBEDO_TABLE) uniform sampler3D albedo_table;
+#endif
 
-// Ess(cos, alpha): the part that a GGX interface of reflectance 1 reflects after one scattering. Axes: sqrt(cos)
-// (1 + roughness) / (sqrt(cos) + roughness), roughness.
+#ifdef TRACE_METAL
+// Ess(cos, alpha): the part that a GGX interface of reflectance 1 reflects after one scattering. Axes: angle_axis(),
+// roughness.
 layout(binding = BINDING_METAL_ALBEDO_TABLE) uniform sampler2D metal_albedo_table;
+#endif
+
+#ifdef TRACE_ROUGH
+// The part that rough glass reflects and transmits after one scattering. Axes: angle_axis(), roughness, eta_axis().
+layout(binding = BINDING_GLASS_ALBEDO_TABLE) uniform sampler3D glass_albedo_table;
 #endif
 
 struct Surface {
@@ -37,7 +45,10 @@ Surface surface_of(Material m, uint id, uint medium, float medium_ior) {
     Surface s;
     s.transmissive = transmits(id);
     s.base = m.base_roughness.rgb;
+    s.metallic = 0.0;
+#ifdef TRACE_METAL
     s.metallic = m.emission_metallic.w;
+#endif
     s.coated = m.absorption_ior.w != 1.0;
     s.eta = m.absorption_ior.w / medium_ior;
     float roughness = m.base_roughness.w;
@@ -54,26 +65,41 @@ Surface surface_of(Material m, uint id, uint medium, float medium_ior) {
 
 bool is_smooth(Surface s) { return s.alpha < ALPHA_SMOOTH; }
 
+// Axes of the tables.
+float angle_axis(float cos_w, float alpha) {
+    float root = sqrt(cos_w);
+    float roughness = sqrt(max(alpha, ALPHA_SMOOTH));
+    return root * (1.0 + roughness) / (root + roughness);
+}
+
+float eta_axis(float eta) {
+    float s = (eta - 1.0) / (eta + 1.0);
+    return 0.5 + 0.5 * sign(s) * sqrt(sqrt(abs(s) / ALBEDO_ETA_RANGE));
+}
+
 #ifdef TRACE_COATED
 vec2 albedo_lookup(float cos_w, float alpha, float eta) {
     vec3 size = vec3(textureSize(albedo_table, 0));
-    float s = (eta - 1.0) / (eta + 1.0);
-    float x = sign(s) * sqrt(abs(s) / ALBEDO_ETA_RANGE);
-    vec3 at = vec3(sqrt(clamp(cos_w, 0.0, 1.0)), sqrt(alpha), 0.5 * x + 0.5);
+    float c = clamp(cos_w, 0.0, 1.0);
+    vec3 at = vec3(eta >= 1.0 ? angle_axis(c, alpha) : sqrt(c), sqrt(alpha), eta_axis(eta));
     vec2 albedo = textureLod(albedo_table, (clamp(at, 0.0, 1.0) * (size - 1.0) + 0.5) / size, 0.0).rg;
-    // A smooth interface needs no table, and between its samples near grazing the table errs most.
-    if (alpha < ALPHA_SMOOTH) albedo.r = fresnel_dielectric(cos_w, eta);
-    return albedo;
+    // A smooth interface needs no table.
+    bool smooth_one = alpha < ALPHA_SMOOTH;
+    float a2 = alpha * alpha;
+    float facet = smooth_one ? c : sqrt((c * c + ALBEDO_FACET_SPREAD * a2 * (1.0 - c * c)) / (1.0 + a2));
+    float f = fresnel_dielectric(min(facet, 1.0), eta);
+    if (smooth_one || eta >= 1.0) albedo.r = f + (smooth_one ? 0.0 : albedo.r);
+    return vec2(clamp(albedo.r, 0.0, 1.0), albedo.g);
 }
 
+#ifdef TRACE_METAL
 float metal_albedo_lookup(float cos_w, float alpha) {
     vec2 size = vec2(textureSize(metal_albedo_table, 0));
-    float root = sqrt(clamp(cos_w, 0.0, 1.0));
-    float roughness = sqrt(max(alpha, ALPHA_SMOOTH));
-    vec2 at = vec2(root * (1.0 + roughness) / (root + roughness), roughness);
+    vec2 at = vec2(angle_axis(clamp(cos_w, 0.0, 1.0), alpha), sqrt(alpha));
     float albedo = textureLod(metal_albedo_table, (clamp(at, 0.0, 1.0) * (size - 1.0) + 0.5) / size, 0.0).r;
     return alpha < ALPHA_SMOOTH ? 1.0 : albedo;
 }
+#endif
 
 // What scattering at an opaque surface needs to know of wo alone.
 struct Coat {
@@ -85,8 +111,11 @@ struct Coat {
 Coat coat_towards(Surface s, float cos_o) {
     Coat coat;
     coat.albedo = s.coated ? albedo_lookup(cos_o, s.alpha, s.eta) : vec2(0.0);
-    // Turquin 2019, eq. 16. Of wo only: the furnace is kept, reciprocity is not.
-    coat.metal_gain = 1.0 + s.base * (1.0 / metal_albedo_lookup(cos_o, s.alpha) - 1.0);
+    coat.metal_gain = vec3(1.0);
+#ifdef TRACE_METAL
+    // Turquin 2019. Of wo only: the furnace is kept, reciprocity is not.
+    coat.metal_gain += s.base * (1.0 / metal_albedo_lookup(cos_o, s.alpha) - 1.0);
+#endif
     float mirror = mix(coat.albedo.r, max_component(s.base), s.metallic);
     float diffuse = (1.0 - s.metallic) * max_component(s.base) * (1.0 - coat.albedo.r);
     coat.probability = mirror + diffuse > 0.0 ? mirror / (mirror + diffuse) : 0.0;
@@ -166,6 +195,13 @@ BsdfSample opaque_sample(Surface s, vec3 wo, vec3 u, bool uniform_diffuse) {
 }
 
 #ifdef TRACE_ROUGH
+// What scatters more than once goes where the rest goes (Turquin 2019): a factor on f.
+float glass_gain(Surface s, float cos_o) {
+    vec3 size = vec3(textureSize(glass_albedo_table, 0));
+    vec3 at = vec3(angle_axis(clamp(cos_o, 0.0, 1.0), s.alpha), sqrt(s.alpha), eta_axis(s.eta));
+    return 1.0 / textureLod(glass_albedo_table, (clamp(at, 0.0, 1.0) * (size - 1.0) + 0.5) / size, 0.0).r;
+}
+
 // f cos and density of a rough dielectric for a pair of directions and the facet normal h (h.z > 0) that turns one into
 // the other (Walter et al. 2007, eq. 20 and 21). Transmitted radiance is scaled by (index here / index beyond)^2.
 void dielectric_eval_at(Surface s, vec3 wo, vec3 wi, vec3 h, out vec3 f_cos, out float pdf) {
@@ -179,7 +215,7 @@ void dielectric_eval_at(Surface s, vec3 wo, vec3 wi, vec3 h, out vec3 f_cos, out
     facets *= ggx_d(h, s.alpha);
     bool valid = min(wo.z, abs(wi.z)) >= COS_GRAZING && cos_o > 0.0 && (reflects ? cos_i > 0.0 : cos_i < 0.0) &&
                  s.eta != 1.0 && !is_smooth(s);
-    f_cos = vec3(valid ? facets * ggx_g2_over_cos(wo, wi, s.alpha) : 0.0);
+    f_cos = vec3(valid ? facets * ggx_g2_over_cos(wo, wi, s.alpha) * glass_gain(s, wo.z) : 0.0);
     pdf = valid ? facets * ggx_g1_over_cos(wo, s.alpha) * (reflects ? 1.0 : s.eta * s.eta) : 0.0;
 }
 
@@ -214,7 +250,7 @@ BsdfSample dielectric_sample(Surface s, vec3 wo, vec3 u) {
         vec3 f_cos;
         dielectric_eval_at(s, wo, result.wi, h, f_cos, result.pdf);
         // f cos / density without D, which is large for small alpha.
-        result.weight *= result.pdf > 0.0 ? ggx_g2_over_g1(wo, result.wi, s.alpha) : 0.0;
+        result.weight *= result.pdf > 0.0 ? ggx_g2_over_g1(wo, result.wi, s.alpha) * glass_gain(s, wo.z) : 0.0;
     }
 #endif
     return result;

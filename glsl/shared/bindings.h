@@ -12,6 +12,7 @@
 #define BINDING_BRICK_CHANGED 3
 #define BINDING_FIRST_INPUT 4
 #define BINDING_METAL_ALBEDO_TABLE 12
+#define BINDING_GLASS_ALBEDO_TABLE 13
 
 // Images of the passes that change cells
 #define IMAGE_CELLS 0

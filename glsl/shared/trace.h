@@ -14,9 +14,13 @@ TARN_CONSTANT int OPTION_STRAIGHT_SUNLIGHT = 16;
 // Below this alpha (roughness^2) a surface is a perfect mirror or interface.
 TARN_CONSTANT float ALPHA_SMOOTH = 1e-3f;
 
-// The albedo table's third axis: x in [-1,1] stands for (eta - 1) / (eta + 1) = x |x| ALBEDO_ETA_RANGE, so that its
+// The albedo table's third axis: x in [-1,1] stands for (eta - 1) / (eta + 1) = x |x|^3 ALBEDO_ETA_RANGE, so that its
 // samples crowd where coats barely refract and their albedo bends most.
 TARN_CONSTANT float ALBEDO_ETA_RANGE = 0.6f;
+
+// For eta >= 1 the table holds what is to be added to Fresnel's reflectance at the cosine
+// sqrt((cos^2 + ALBEDO_FACET_SPREAD alpha^2 sin^2) / (1 + alpha^2)), near that of the facets seen: it bends far less.
+TARN_CONSTANT float ALBEDO_FACET_SPREAD = 2.0f;
 
 // In place of a material's id where a ray meets the sky.
 TARN_CONSTANT TARN_UINT SURFACE_SKY = 255u;

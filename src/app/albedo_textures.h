@@ -7,6 +7,7 @@ namespace tarn {
 struct AlbedoTextures {
     gl::Texture dielectric;  // for BINDING_ALBEDO_TABLE
     gl::Texture metal;       // for BINDING_METAL_ALBEDO_TABLE
+    gl::Texture glass;       // for BINDING_GLASS_ALBEDO_TABLE
 };
 
 AlbedoTextures make_albedo_textures();

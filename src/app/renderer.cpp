@@ -118,6 +118,7 @@ TraceFeatures Renderer::Parts::features(const Simulation& simulation) const {
         const bool clear = id == MATERIAL_WATER || id == MATERIAL_GLASS;
         if (clear) features.rough |= m.roughness * m.roughness >= ALPHA_SMOOTH;
         if (!clear) features.coated |= m.ior != 1 || m.metallic > 0;
+        if (!clear) features.metal |= m.metallic > 0;
         features.clear |= clear;
         const glm::vec3 shines = id == MATERIAL_WATER ? glm::vec3(0) : m.emission;  // as in lib/emitter_tree
         features.emitters |= std::max({shines.x, shines.y, shines.z}) > 0;
@@ -255,6 +256,7 @@ const gl::Texture& Renderer::render(const Simulation& simulation, const Settings
                                    .brick_distance = simulation.brick_distance(),
                                    .albedo_table = p.albedo.dielectric,
                                    .metal_albedo_table = p.albedo.metal,
+                                   .glass_albedo_table = p.albedo.glass,
                                    .emitters = features.emitters ? &*p.emitters : nullptr,
                                    .rejected = p.rejected},
                                   {.target = p.views.trace_target(*p.targets, p.current)}, p.timers);

@@ -17,6 +17,7 @@ struct TraceFeatures {
     bool clear = false;         // water or glass
     bool rough = false;         // some of it rough
     bool coated = false;        // opaque materials with an interface, metals
+    bool metal = false;         // metals among them
     bool sun = false;           // sampled
     bool sky = false;           // sampled
     bool emitters = false;      // emissive voxels, sampled
@@ -33,6 +34,7 @@ class TracePass {
         const gl::Texture& brick_distance;
         const gl::Texture& albedo_table;
         const gl::Texture& metal_albedo_table;
+        const gl::Texture& glass_albedo_table;
         const EmittersPass* emitters;  // null unless the feature is on
         const gl::Buffer& rejected;    // one uint, counted up
     };

@@ -17,4 +17,5 @@ void print_array(const char* name, const std::vector<float>& values) {
 int main() {
     print_array("albedo_table", tarn::make_albedo_table());
     print_array("metal_albedo_table", tarn::make_metal_albedo_table());
+    print_array("glass_albedo_table", tarn::make_glass_albedo_table());
 }

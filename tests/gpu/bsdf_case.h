@@ -72,6 +72,7 @@ class BsdfKernel {
         block_.bind_uniform(2);
         tables_.dielectric.bind(BINDING_ALBEDO_TABLE);
         tables_.metal.bind(BINDING_METAL_ALBEDO_TABLE);
+        tables_.glass.bind(BINDING_GLASS_ALBEDO_TABLE);
         results.bind_storage(0);
         program_.dispatch_for({invocations, 1, 1}, {64, 1, 1});
     }

@@ -37,8 +37,8 @@ class BsdfEnergyTest : public GlTest {
 
 // 0.17 % is the interpolation of the table of metals (src/reference/albedo.h).
 constexpr double metal_tolerance = 0.002;
-// Half a million points of a lattice, and a choice of the lobe that cuts through it.
-constexpr double glass_tolerance = 0.001;
+// A quarter of a million points of a lattice, and a choice of the lobe that cuts through it.
+constexpr double glass_tolerance = 0.002;
 
 TEST_F(BsdfEnergyTest, AWhiteMetalReturnsAllLightAtEveryRoughnessAndAngle) {
     double worst = 0;
@@ -92,62 +92,86 @@ TEST_F(BsdfEnergyTest, WhiteAndSmoothSurfacesReturnAllLight) {
     }
 }
 
-TEST_F(BsdfEnergyTest, AWhiteCoatedSurfaceReturnsAllLightAwayFromGrazing) {
-    for (const double eta : {1.125, 1.333, 1.5, 2.5}) {
-        for (const double alpha : {0.0, 1e-3, 0.01, 0.1, 0.3, 1.0}) {
-            for (const double cos_o : {0.1, 0.3, 0.6, 1.0}) {
-                const BsdfCase c{.cos_o = cos_o, .alpha = alpha, .eta = eta, .base = 1};
-                // The albedo of the coat is interpolated. Below cos 0.1 the table follows it to 5 % only.
-                EXPECT_NEAR(furnace(c, 64).reflected, 1, 0.01) << c.text();
+TEST_F(BsdfEnergyTest, AWhiteCoatedSurfaceReturnsAllLight) {
+    // What the interpolated albedo of the coat allows, by index: barely refracting coats bend most, and for
+    // an index below that of the medium total reflection sets in at once.
+    struct Allowed {
+        double eta, least, most;
+    };
+    for (const Allowed& allowed : {Allowed{0.75, 0.93, 1.015},
+                                   {0.9, 0.96, 1.015},
+                                   {1.0001, 0.99, 1.015},
+                                   {1.01, 0.994, 1.006},
+                                   {1.125, 0.996, 1.005},
+                                   {1.333, 0.996, 1.005},
+                                   {1.5, 0.996, 1.005},
+                                   {2.5, 0.996, 1.005},
+                                   {3, 0.996, 1.005}}) {
+        double least = 1;
+        double most = 1;
+        for (const double alpha : {0.0, 1e-3, 1.5e-3, 2e-3, 5e-3, 0.01, 0.03, 0.1, 0.3, 1.0}) {
+            for (const double cos_o : {1e-3, 3e-3, 0.01, 0.02, 0.05, 0.1, 0.3, 0.6, 0.7, 1.0}) {
+                const BsdfCase c{.cos_o = cos_o, .alpha = alpha, .eta = allowed.eta, .base = 1};
+                const double returned = furnace(c, 32).reflected;
+                EXPECT_GT(returned, allowed.least) << c.text();
+                EXPECT_LT(returned, allowed.most) << c.text();
+                least = std::min(least, returned);
+                most = std::max(most, returned);
             }
         }
+        fmt::print("white coat, eta {}: returns {:.4f} to {:.4f}\n", allowed.eta, least, most);
     }
 }
 
-TEST_F(BsdfEnergyTest, RoughGlassReflectsAndTransmitsWhatQuadratureSays) {
-    for (const double eta : {1.5, 1 / 1.5, 1.333, 1 / 1.333}) {
-        for (const double alpha : {1e-3, 0.03, 0.1, 0.3, 1.0}) {
-            for (const double cos_o : {0.01, 0.1, 0.6, 1.0}) {
+TEST_F(BsdfEnergyTest, RoughGlassSharesAllLightAsItsFacetsDo) {
+    double worst = 0;
+    double worst_near_one = 0;
+    for (const double eta : {0.5, 1 / 1.5, 1 / 1.333, 0.99, 0.9999, 1.0001, 1.01, 1.125, 1.333, 1.5, 2.5}) {
+        const bool near_one = std::abs(eta - 1) < 0.1;
+        for (const double alpha : {1e-3, 5e-3, 0.03, 0.1, 0.3, 1.0}) {
+            for (const double cos_o : {0.01, 0.1, 0.4, 0.75, 1.0}) {
                 const BsdfCase c{.cos_o = cos_o, .alpha = alpha, .eta = eta, .transmissive = true};
-                const Furnace f = furnace(c, 512);
-                const Energy expected = glass_energy(cos_o, alpha, eta);
-                EXPECT_NEAR(f.reflected, expected.reflected, glass_tolerance) << c.text();
-                EXPECT_NEAR(f.transmitted, expected.transmitted, glass_tolerance) << c.text();
-                EXPECT_LT(f.all(), 1 + glass_tolerance) << c.text();
-                // G2 / G1 of what leaves.
-                EXPECT_LE(f.largest_weight, 1 + 1e-5) << c.text();
+                const Furnace f = furnace(c, 256);
+                const Energy once = glass_energy(cos_o, alpha, eta, 200);
+                const double share = once.reflected / (once.reflected + once.transmitted);
+                EXPECT_NEAR(f.reflected / f.all(), share, glass_tolerance) << c.text();
+                // The interpolation of the table: near grazing it bends as eta leaves 1.
+                EXPECT_NEAR(f.all(), 1, near_one ? 0.06 : 0.01) << c.text();
+                double& most = near_one ? worst_near_one : worst;
+                most = std::max(most, std::abs(f.all() - 1));
             }
         }
     }
+    fmt::print("rough glass: furnace within {:.1f} %; within 10 % of index 1: {:.1f} %\n", 100 * worst,
+               100 * worst_near_one);
 }
 
-// Part of the light from all sides, by cosine, that an interface neither reflects nor transmits.
+// Mean over light from all sides, by cosine.
 template <typename Returned>
-double mean_loss(Returned returned) {
+double mean_over_sides(Returned returned) {
     constexpr int n = 16;
     double sum = 0;
-    for (int i = 0; i < n; ++i) sum += (1 - returned(std::sqrt((i + 0.5) / n))) / n;
+    for (int i = 0; i < n; ++i) sum += returned(std::sqrt((i + 0.5) / n)) / n;
     return sum;
 }
 
-TEST_F(BsdfEnergyTest, TheLossOfRoughGlassIsWhatScattersMoreThanOnce) {
+TEST_F(BsdfEnergyTest, RoughGlassReturnsInTheMeanWhatItsFacetsWouldLose) {
     for (const double eta : {1.5, 1 / 1.5}) {
         double last = 0;
         for (const double alpha : {0.1, 0.25, 0.5, 1.0}) {
-            const double expected = mean_loss([&](double cos_o) {
-                const Energy e = glass_energy(cos_o, alpha, eta);
-                return e.reflected + e.transmitted;
-            });
-            const double shaded = mean_loss([&](double cos_o) {
+            const double lost = 1 - mean_over_sides([&](double cos_o) {
+                                    const Energy once = glass_energy(cos_o, alpha, eta, 200);
+                                    return once.reflected + once.transmitted;
+                                });
+            const double returned = mean_over_sides([&](double cos_o) {
                 return furnace({.cos_o = cos_o, .alpha = alpha, .eta = eta, .transmissive = true}, 64).all();
             });
-            EXPECT_NEAR(shaded, expected, glass_tolerance) << eta << " " << alpha;
-            EXPECT_GT(shaded, last) << "rougher glass loses more";
-            last = shaded;
+            EXPECT_NEAR(returned, 1, 0.005) << eta << " " << alpha;
+            EXPECT_GT(lost, last) << "rougher glass scatters more than once more often";
+            last = lost;
             fmt::print(
-                "rough glass, eta {:.3f}, alpha {:.2f}: loses {:.1f} %; at normal incidence {:.1f} %\n", eta,
-                alpha, 100 * shaded,
-                100 * (1 - furnace({.alpha = alpha, .eta = eta, .transmissive = true}, 64).all()));
+                "rough glass, eta {:.3f}, alpha {:.2f}: {:.1f} % scatters more than once; returns {:.4f}\n",
+                eta, alpha, 100 * lost, returned);
         }
     }
 }
@@ -184,19 +208,19 @@ TEST_F(BsdfEnergyTest, AWhiteMetalBallVanishesInAWhiteSky) {
     }
 }
 
-TEST_F(BsdfEnergyTest, ARoughGlassBallOnlyDarkens) {
-    double last = 1;
-    for (const float roughness : {0.0f, 0.3162f, 0.5f, 0.7071f, 1.0f}) {
-        const Picture picture = picture_of(ball(MATERIAL_GLASS, roughness), 32, {48, 48},
+TEST_F(BsdfEnergyTest, AClearGlassBallVanishesInAWhiteSky) {
+    for (const float roughness : {0.0f, 0.1f, 0.3162f, 0.5f, 0.7071f, 1.0f}) {
+        const Picture picture = picture_of(ball(MATERIAL_GLASS, roughness), 96, {48, 48},
                                            [](Settings& s) { s.roulette_after = 1024; });
-        if (roughness == 0)
+        if (roughness == 0) {
             EXPECT_LT(picture.worst(1), 2e-5);
-        else
-            EXPECT_LT(picture.mean().x, last - 4 * picture.standard_error()) << roughness;
+        }
+        // Light crosses several interfaces, each with the error of the table.
+        EXPECT_NEAR(picture.mean().x, 1, 0.01) << roughness;
+        EXPECT_LT(picture.standard_error(), 0.005) << roughness;
         EXPECT_EQ(picture.rejected, 0u);
-        last = picture.mean().x;
-        fmt::print("clear glass ball, alpha {:.2f}: {:.3f} of the sky, error {:.4f}\n", roughness * roughness,
-                   last, picture.standard_error());
+        fmt::print("clear glass ball, alpha {:.2f}: {:.4f} of the sky, error {:.4f}\n", roughness * roughness,
+                   picture.mean().x, picture.standard_error());
     }
 }
 

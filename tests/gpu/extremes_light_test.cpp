@@ -2,7 +2,6 @@
 // others are.
 #include <numbers>
 
-#include "reference/albedo.h"
 #include "studio.h"
 
 namespace tarn {
@@ -95,11 +94,9 @@ TEST_F(ExtremesLightTest, ClearGlassLetsAllThroughAtAnyRoughnessAndIndex) {
                 EXPECT_LT(picture.worst(1), 1e-6) << roughness << " " << index;
                 continue;
             }
-            // Light that scatters twice between facets is lost, at each of two surfaces and at most as much
-            // of it as a white metal of that roughness loses.
-            const double once = ggx_dielectric_albedo(1, 1, 1e7, 256);
             EXPECT_LE(picture.mean().x, 1 + 3 * picture.standard_error() + 1e-6) << index;
-            EXPECT_GE(picture.mean().x, once * once - 3 * picture.standard_error()) << index;
+            // Two surfaces, each with the error of the table of rough glass.
+            EXPECT_GE(picture.mean().x, 0.99 - 3 * picture.standard_error()) << index;
         }
     }
 }

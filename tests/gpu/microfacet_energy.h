@@ -7,7 +7,7 @@
 
 namespace tarn {
 
-// Unpolarised, in the form without a refracted cosine (Born & Wolf 1999; Walter et al. 2007, eq. 22).
+// Unpolarised, in the form without a refracted cosine (Walter et al. 2007, eq. 22).
 inline double exact_fresnel(double cos_i, double eta) {
     const double g2 = eta * eta - 1 + cos_i * cos_i;
     if (g2 <= 0) return 1;

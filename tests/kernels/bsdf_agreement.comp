@@ -59,7 +59,7 @@ void main() {
         mine.weight = max(mine.weight, difference(f_cos.x / pdf, sampled.weight.x) / ulp);
         mine.density = max(mine.density, difference(pdf, sampled.pdf) / ulp);
 
-        // f without the cosine; beyond the surface it is scaled by the index squared (Walter et al. 2007, section 5.2).
+        // f without the cosine; beyond the surface it is scaled by the index squared (Walter et al. 2007).
         float forward = f_cos.x / abs(sampled.wi.z);
         Surface back = s;
         vec3 from = sampled.wi;
@@ -78,8 +78,11 @@ void main() {
         case_eval(back, from, to, back_cos, back_pdf);
         float backward = back_cos.x / w.z;
         mine.asymmetry = max(mine.asymmetry, difference(forward, backward));
-        if (metallic == 1.0) {
-            // The compensation of metals is not reciprocal, and is meant not to be; all else is.
+        // The compensation of metals and glass is not reciprocal, and is meant not to be; all else is.
+        if (transmissive != 0) {
+            forward /= glass_gain(s, w.z);
+            backward /= glass_gain(back, from.z);
+        } else if (metallic == 1.0) {
             forward /= coat_towards(s, w.z).metal_gain.x;
             backward /= coat_towards(s, sampled.wi.z).metal_gain.x;
         }

@@ -2,6 +2,7 @@
 #define TRACE_CLEAR 1
 #define TRACE_ROUGH 1
 #define TRACE_COATED 1
+#define TRACE_METAL 1
 #include "lib/bsdf.glsl"
 
 // As BsdfCaseBlock of tests/gpu/bsdf_case.h. A block: zink mixes up the variants that it makes of plain uniforms.
@@ -20,7 +21,9 @@ layout(std140, binding = 2) uniform CaseBlock {
     float bin_eta;
 };
 
-Surface case_surface() { return Surface(base, alpha, metallic, eta, transmissive == 0 && eta != 1.0, transmissive != 0); }
+Surface case_surface() {
+    return Surface(base, alpha, metallic, eta, transmissive == 0 && eta != 1.0, transmissive != 0);
+}
 
 BsdfSample case_sample(Surface s, vec3 w, vec3 u) {
     return s.transmissive ? dielectric_sample(s, w, u) : opaque_sample(s, w, u, uniform_diffuse != 0);
