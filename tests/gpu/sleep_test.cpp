@@ -108,31 +108,6 @@ TEST_F(SleepTest, what_is_active_follows_the_reference_at_every_tick) {
     }
 }
 
-TEST_F(SleepTest, every_scene_without_a_spring_comes_to_rest) {
-    int rested = 0;
-    for (const std::string& name : built_in_scenes()) {
-        const Scene scene = load_scene(name, Settings{});
-        if (!scene.springs.empty()) continue;
-        for (const WaterTier tier : {WaterTier::Level, WaterTier::Pressure}) {
-            SCOPED_TRACE(name + ", " + name_of(tier));
-            gl::Timers timers;
-            Simulation simulation(scene, timers);
-            Settings settings = scene.settings;
-            settings.water_tier = tier;
-            while (simulation.active_bricks() > 0 && simulation.tick() < 1500) simulation.step(50, settings);
-            EXPECT_EQ(simulation.active_bricks(), 0u);
-            const std::uint32_t last_change = simulation.last_change();
-            const Cells cells = simulation.read_cells();
-            simulation.step(100, settings);
-            EXPECT_TRUE(same_cells(simulation.read_cells(), cells));
-            EXPECT_EQ(simulation.last_change(), last_change);
-            EXPECT_EQ(take_census(cells).water_quanta, take_census(scene.cells).water_quanta);
-            ++rested;
-        }
-    }
-    EXPECT_GE(rested, 10);
-}
-
 TEST_F(SleepTest, edits_undo_and_another_rule_wake) {
     for (const WaterTier tier : {WaterTier::Level, WaterTier::Pressure}) {
         SCOPED_TRACE(name_of(tier));

@@ -3,6 +3,7 @@
 // none can be forgotten.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <regex>
@@ -21,6 +22,18 @@ using Defines = std::vector<std::pair<std::string, std::string>>;
 // Macros that stand for a number, with every value that the passes give them.
 const std::map<std::string, std::vector<std::string>> numbers = {
     {"AXIS", {"0", "1", "2"}}, {"SHOWN_VIEW", {"1", "2", "3", "4", "5", "6", "7", "8"}}};
+
+// Macros that the passes define only together with another.
+const std::map<std::string, std::string> needs = {
+    {"TRACE_ROUGH", "TRACE_CLEAR"}, {"TRACE_SMOOTH_WATER", "TRACE_CLEAR"}, {"TRACE_METAL", "TRACE_COATED"}};
+
+bool is_made(const Defines& defines) {
+    const auto defined = [&](const std::string& name) {
+        return std::any_of(defines.begin(), defines.end(), [&](const auto& d) { return d.first == name; });
+    };
+    return std::all_of(needs.begin(), needs.end(),
+                       [&](const auto& need) { return !defined(need.first) || defined(need.second); });
+}
 
 std::set<std::string> names_in(const std::string& text, const char* pattern) {
     const std::regex regex(pattern, std::regex::ECMAScript | std::regex::multiline);
@@ -54,6 +67,7 @@ std::vector<Defines> variants(const std::string& text) {
         }
         all = std::move(product);
     }
+    std::erase_if(all, [](const Defines& defines) { return !is_made(defines); });
     return all;
 }
 
