@@ -96,7 +96,8 @@ EmitterSample sample_emitter(Receiver to) {
         node = child;
     }
     int count = exposed_emitters(node);
-    int bit = set_bit(emitter_masks[emitter_node_index(node, 0)], min(int(rng_float() * float(count)), count - 1));
+    int chosen_bit = clamp(int(rng_float() * float(count)), 0, max(count - 1, 0));
+    int bit = max(set_bit(emitter_masks[emitter_node_index(node, 0)], chosen_bit), 0);
     ivec3 cell = node * BRICK_SIDE + ivec3(bit & 3, (bit >> 2) & 3, bit >> 4);
     ivec3 side;
     vec3 distance = visible_faces(to.at_vox, cell, side);

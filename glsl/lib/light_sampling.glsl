@@ -19,13 +19,14 @@ const float SIDE_FACE_PROBABILITY = 0.0625;
 const int STRAIGHT_LEGS_MAX = 24;
 
 #ifdef TRACE_SUN
-// Light of the sun that the vertex sends towards the eye, by one sampled direction. Under water the sun is connected
-// through a smooth face of the water: faces are axis-aligned, so its refracted direction is one per orientation.
-vec3 sampled_sun(Vertex v, bool through_water) {
+// Light of the sun that the vertex sends towards the eye, by one sampled direction. `start`: of rays to the sun; `across`:
+// it lies beyond a rough interface. Under water the sun is connected through a smooth face of the water: faces are
+// axis-aligned, so its refracted direction is one per orientation.
+vec3 sampled_sun(Vertex v, RayStart start, bool across, bool through_water) {
     vec3 to_sun = sample_sun(rng_vec2());
     vec3 dir = to_sun;
     vec3 weight = sun_sample_weight();
-    bool in_air = v.start.medium == MATERIAL_AIR;
+    bool in_air = start.medium == MATERIAL_AIR;
 #ifdef TRACE_CLEAR
     int face = 1;
     if (through_water) {
@@ -49,15 +50,15 @@ vec3 sampled_sun(Vertex v, bool through_water) {
     vertex_eval(v, wi, f_cos, pdf);
     if (in_air && frame.sun_irradiance.w > 0.0) weight *= power_heuristic(1.0 / frame.sun_irradiance.w, pdf);
     vec3 light = f_cos * weight;
-    // The ray leaves on this side: what a rough interface passes to the other is left to chance.
-    bool asked = (in_air || through_water) && wi.z > 0.0 && max_component(light) > 0.0;
-    RayStart ray = v.start;
+    bool on_side = (wi.z > 0.0) != across && (component(dir, v.axis) * v.side > 0.0) != across;
+    bool asked = (in_air || through_water) && on_side && max_component(light) > 0.0;
+    RayStart ray = start;
     bool seen = false;
 #ifdef TRACE_CLEAR
     // With caustics the same light is found by chance: not twice.
     bool straight = in_air && option(OPTION_STRAIGHT_SUNLIGHT) && !option(OPTION_CAUSTICS);
     float ior_here = 1.0;
-    vec3 absorption = absorption_per_m(v.start.medium) * frame.trace_limits.y;
+    vec3 absorption = absorption_per_m(start.medium) * frame.trace_limits.y;
     for (int leg = 0; leg < STRAIGHT_LEGS_MAX; ++leg) {
         RayHit hit = trace_ray(ray, dir, asked ? frame.trace_limits.x : -1.0);
         bool ends = hit.kind == HIT_NONE;
@@ -191,6 +192,10 @@ vec3 sampled_emitter(Vertex v, bool across_water, float above, bool mirrored) {
     vec3 wi = vertex_local(v, dir);
     vertex_eval(v, wi, f_cos, pdf_scattered);
     light *= f_cos;
+#ifdef TRACE_SMOOTH_WATER
+    // What chance finds this way is not counted.
+    if (crosses || mirrored) pdf_scattered = 0.0;
+#endif
     asked = asked && pdf > 0.0 && wi.z > 0.0 && max_component(light) > 0.0;
     light *= asked ? power_heuristic(pdf, pdf_scattered * chance) / pdf : 0.0;
     RayStart ray = v.start;
@@ -202,14 +207,16 @@ vec3 sampled_emitter(Vertex v, bool across_water, float above, bool mirrored) {
         light *= exp(-absorption_per_m(ray.medium) * (frame.trace_limits.y * hit.t));
         seen = met == (crosses || mirrored) && hit.kind == HIT_FACE && hit.cell == emitter.cell && hit.axis == emitter.axis;
         vec3 point = hit_point(ray, dir, hit);
+        int hit_axis = hit.axis;
 #ifdef TRACE_SMOOTH_WATER
         WaterFace water = water_face(ray.medium, dir, hit, point);
         if (water.is_smooth && !water.met) {
             ray = water.start;
             continue;
         }
+        if (water.is_smooth) hit_axis = 1;
 #endif
-        bool onward = (crosses || mirrored) && !met && hit.kind != HIT_NONE && hit.axis == 1 &&
+        bool onward = (crosses || mirrored) && !met && hit.kind != HIT_NONE && hit_axis == 1 &&
                       hit.beyond == (mirrored ? MATERIAL_AIR : medium) && is_same_surface(point.y, above);
         if (!onward) break;
         met = true;

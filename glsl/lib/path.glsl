@@ -120,14 +120,24 @@ vec3 trace_path(vec3 eye_vox, vec3 dir, out FirstSurface first) {
         bool delta = v.surface.transmissive && is_smooth(v.surface);
         if (!delta && diffuse_bounces >= frame.trace_options.z) break;
 
-        bool light_sampled = false;  // the sun was, from here
-        bool under_water = false;
-#ifdef TRACE_CLEAR
-        under_water = ray.medium == MATERIAL_WATER && through_smooth_water && !v.surface.transmissive;
-#endif
 #ifdef TRACE_SUN
-        light_sampled = !delta && (ray.medium == MATERIAL_AIR || under_water);
-        if (light_sampled) light += limited(throughput * sampled_sun(v, under_water), bounce + 1);
+        // Rays to the sun start on this side, but out of glass and of rough water beyond the interface.
+        RayStart sunward = v.start;
+        bool across = false;
+        bool under_water = false;
+#ifdef TRACE_ROUGH
+        across = !delta && v.surface.transmissive && ray.medium != MATERIAL_AIR &&
+                 (hit.beyond == MATERIAL_AIR || ray.medium == MATERIAL_GLASS);
+        if (across) sunward = RayStart(v.start.origin_vox, hit.cell, hit.beyond);
+#ifdef TRACE_SMOOTH_WATER
+        if (across) sunward.origin_vox = point;
+#endif
+#endif
+#ifdef TRACE_CLEAR
+        under_water = sunward.medium == MATERIAL_WATER && through_smooth_water;
+#endif
+        bool sun_sampled = !delta && (sunward.medium == MATERIAL_AIR || under_water);
+        if (sun_sampled) light += limited(throughput * sampled_sun(v, sunward, across, under_water), bounce + 1);
 #endif
 #ifdef TRACE_SKY
         light += limited(throughput * sampled_sky(v), bounce + 1);
@@ -174,7 +184,7 @@ vec3 trace_path(vec3 eye_vox, vec3 dir, out FirstSurface first) {
 #endif
 #ifdef TRACE_SUN
         if (next.pdf > 0.0) {
-            bool sampled = light_sampled && !transmitted;
+            bool sampled = sun_sampled && transmitted == across;
             sun_state = !sampled ? SUN_BY_CHANCE : under_water ? SUN_UNDER_WATER : SUN_SAMPLED;
         } else if (sun_state != SUN_SEEN) {
             sun_state = sun_state == SUN_UNDER_WATER && to_air ? SUN_CONNECTED : SUN_BY_CHANCE;

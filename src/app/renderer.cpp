@@ -56,7 +56,6 @@ struct Renderer::Parts {
     Settings settings;  // of the last frame
     int current = 0;    // which of the two sets the last frame wrote
     bool has_history = false;
-    bool has_moments = false;         // the last frame wrote some
     std::uint32_t world_change = 0;   // Simulation::last_change() seen by the last frame of exact mode
     std::uint64_t world_version = 0;  // seen by the last frame
     std::uint64_t frame_index = 0;
@@ -363,7 +362,6 @@ std::vector<std::string> Renderer::poll_reload() {
     const auto poll_program = [&](gl::Program& program) {
         if (auto message = program.poll_reload()) {
             messages.push_back(*message);
-            parts_->has_history = false;
         }
     };
     const auto poll = [&](auto& pass) {
@@ -379,6 +377,7 @@ std::vector<std::string> Renderer::poll_reload() {
     }
     poll(parts_->accumulate);
     if (parts_->emitters) parts_->emitters->poll_reload(messages);
+    if (!messages.empty()) parts_->has_history = false;
     return messages;
 }
 

@@ -9,6 +9,7 @@
 
 #include "cli/names.h"
 #include "cli/progress.h"
+#include "core/error.h"
 #include "core/files.h"
 #include "gl/context.h"
 #include "measure/light_table.h"
@@ -21,14 +22,24 @@ namespace {
 // One in 16,000 right means is further off.
 constexpr double off_by_max = 4;
 
+// What would make the table mean something else.
+void check_assignment(const std::string& assignment) {
+    Settings trial;
+    set_assignment(trial, assignment);
+    const std::string key = assignment.substr(0, assignment.find('='));
+    bool taken = key == "view" || key == "history" || key == "quality";
+    for (const LightScenario& scenario : light_scenarios()) taken |= is_set_by(scenario, key);
+    if (taken)
+        fail("--set {}: the strategies that are compared set this; allowed: any other setting", assignment);
+}
+
 }  // namespace
 
 int run_light_command(const Arguments& arguments) {
     std::vector<std::string> all;
     for (const LightScenario& scenario : light_scenarios()) all.emplace_back(scenario.name);
     const auto names = names_of("--scenario", arguments.scenarios, all);
-    Settings trial;
-    for (const std::string& assignment : arguments.set) set_assignment(trial, assignment);
+    for (const std::string& assignment : arguments.set) check_assignment(assignment);
     if (!arguments.out.empty()) make_folder(arguments.out, {"light.csv"});
     const auto platform = make_headless({1, 1}, 0);
     fmt::print("rendered by {}\n\n", gl::driver_info().renderer);

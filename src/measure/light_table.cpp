@@ -129,11 +129,22 @@ std::span<const LightScenario> light_scenarios() {
     return scenarios;
 }
 
+bool is_set_by(const LightScenario& scenario, std::string_view key) {
+    return std::any_of(scenario.strategies.begin(), scenario.strategies.end(), [&](const LightStrategy& s) {
+        return std::any_of(s.set.begin(), s.set.end(), [&](std::string_view assignment) {
+            return assignment.substr(0, assignment.find('=')) == key;
+        });
+    });
+}
+
 std::vector<LightRow> measure_light(const LightScenario& scenario, const LightOptions& options,
                                     const std::function<void(double)>& progress) {
     std::vector<std::unique_ptr<Run>> runs;
     for (const LightStrategy& strategy : scenario.strategies) {
-        runs.push_back(std::make_unique<Run>(strategy, scene_for(scenario, strategy, options.set)));
+        Scene scene = scene_for(scenario, strategy, options.set);
+        // Numbers of their own: the means are compared as independent.
+        scene.seed += static_cast<std::uint32_t>(runs.size());
+        runs.push_back(std::make_unique<Run>(strategy, std::move(scene)));
         const auto pixels = static_cast<std::size_t>(options.size_px.x) * options.size_px.y;
         runs.back()->sum.assign(pixels, 0);
         runs.back()->square.assign(pixels, 0);

@@ -4,6 +4,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/settings.h"
@@ -23,6 +24,9 @@ struct LightScenario {
 };
 
 std::span<const LightScenario> light_scenarios();
+
+// Whether the strategies of a scenario differ in this setting.
+bool is_set_by(const LightScenario& scenario, std::string_view key);
 
 struct LightRow {
     std::string scenario, strategy;

@@ -50,7 +50,7 @@ void EmittersPass::record(const Inputs& in, gl::Timers& timers) {
         glDispatchComputeIndirect(static_cast<GLintptr>(sizeof(glm::uvec3)) * level);
     }
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
     seen_version_ = in.version;
     seen_any_ = true;
 }
@@ -62,7 +62,13 @@ void EmittersPass::bind() const {
 
 void EmittersPass::poll_reload(std::vector<std::string>& messages) {
     for (gl::Program* program : {&bricks_program_, &tree_program_})
-        if (auto message = program->poll_reload()) messages.push_back(*message);
+        if (auto message = program->poll_reload()) {
+            messages.push_back(*message);
+            tree_.clear();
+            tree_.upload(std::span(&head_, 1));
+            masks_.clear();
+            seen_any_ = false;
+        }
 }
 
 }  // namespace tarn

@@ -163,7 +163,7 @@ Scene pillar(const char* floor_material) {
 TEST_F(LightTest, SamplingTheSunAndTheSkyChangesNoMean) {
     for (const char* material : {"wall", "stone", "metal", "glass"}) {
         const auto with = [&](LightSampling sampling) {
-            return picture_of(pillar(material), 48, {64, 64},
+            return picture_of(pillar(material), sampling == LightSampling::None ? 144 : 48, {64, 64},
                               [&](Settings& s) { s.light_sampling = sampling; });
         };
         const Picture chance = with(LightSampling::None);
@@ -194,6 +194,57 @@ TEST_F(LightTest, TheSunThroughWaterAgreesWithChance) {
     const Picture connected = with(true);
     EXPECT_NEAR(connected.mean().x, chance.mean().x, 0.015 * chance.mean().x);
     EXPECT_GT(chance.mean().x, 0.1);
+}
+
+// A bed under rough water, frosted glass in smooth water: what the sun sends through rough interfaces is
+// sampled there.
+Scene rough_pool(float water_roughness, bool glass) {
+    Scene scene = scene_from(R"({"size": [24, 16, 24],
+        "camera": {"position_vox": [12, 15, 20], "pitch_deg": -50, "fov_deg": 40},
+        "sun": {"azimuth_deg": 60, "elevation_deg": 50, "irradiance": [3, 3, 3], "angular_radius_deg": 10},
+        "sky": {"zenith": [0, 0, 0], "horizon": [0, 0, 0]},
+        "materials": {"glass": {"roughness": 0.6}, "wall": {"base_color": [0.6, 0.6, 0.6]}},
+        "build": [{"box": {"min": [0, 0, 0], "max": [24, 2, 24], "material": "wall"}},
+                  {"box": {"min": [0, 2, 0], "max": [24, 6, 24], "material": "water"}}]})");
+    scene.materials[MATERIAL_WATER].roughness = water_roughness;
+    if (glass)
+        for (int z = 8; z < 16; ++z)
+            for (int y = 2; y < 9; ++y)
+                for (int x = 8; x < 16; ++x) scene.cells.at({x, y, z}) = MATERIAL_GLASS;
+    return scene;
+}
+
+TEST_F(LightTest, TheSunThroughRoughInterfacesAgreesWithChance) {
+    for (const auto& [roughness, glass] : {std::pair(0.4f, false), {0.0f, true}, {0.4f, true}}) {
+        // Independent pictures: chance is too noisy for the spread of pixels to tell its error.
+        const auto with = [&, r = roughness, g = glass](LightSampling sampling, int frames) {
+            constexpr int pictures = 10;
+            double sum = 0;
+            double squares = 0;
+            for (std::uint32_t seed = 1; seed <= pictures; ++seed) {
+                Scene scene = rough_pool(r, g);
+                scene.seed = seed + 100 * static_cast<std::uint32_t>(sampling);
+                const double mean =
+                    picture_of(scene, frames, {64, 64}, [&](Settings& s) { s.light_sampling = sampling; })
+                        .mean()
+                        .x;
+                sum += mean / pictures;
+                squares += mean * mean / pictures;
+            }
+            return std::pair(sum, std::sqrt((squares - sum * sum) / (pictures - 1)));
+        };
+        const auto [chance, chance_error] = with(LightSampling::None, 60);
+        const auto [sampled, sampled_error] = with(LightSampling::Lights, 12);
+        const double error = std::hypot(chance_error, sampled_error);
+        EXPECT_NEAR(sampled, chance, 3 * error) << roughness << " " << glass;
+        EXPECT_LT(error, 0.015 * sampled);
+        // Where light is not found by chance at all, little of it is missing.
+        const Picture preset = picture_of(rough_pool(roughness, glass), 48, {64, 64}, [](Settings& s) {
+            s.caustics = false;
+            s.straight_sunlight = true;
+        });
+        EXPECT_NEAR(preset.mean().x, sampled, 0.15 * sampled) << roughness << " " << glass;
+    }
 }
 
 TEST_F(LightTest, AShadowsEdgeUnderWaterLiesWhereRefractionPutsIt) {
