@@ -11,6 +11,7 @@
 #include "app/render_targets.h"
 #include "app/stopwatch.h"
 #include "app/views.h"
+#include "app/world_contents.h"
 #include "core/error.h"
 #include "gl/buffer.h"
 #include "gl/framebuffer.h"
@@ -29,8 +30,7 @@ namespace tarn {
 
 struct Renderer::Parts {
     gl::Timers& timers;
-    Census initial;
-    std::vector<Spring> springs;
+    WorldContents contents;
     MaterialTable materials;
     float metres_per_voxel;
     std::uint32_t seed;
@@ -58,14 +58,14 @@ struct Renderer::Parts {
     bool has_history = false;
     std::uint32_t world_change = 0;   // Simulation::last_change() seen by the last frame of exact mode
     std::uint64_t world_version = 0;  // seen by the last frame
+    std::uint64_t lamps_edited = 0;   // emissive_edits() seen by the last frame
     std::uint64_t frame_index = 0;
     std::uint64_t frames_kept = 0;
     const gl::Texture* shown = nullptr;  // radiance of the last frame
 
     Parts(const Scene& scene, gl::Timers& timers_)
         : timers(timers_),
-          initial(take_census(scene.cells)),
-          springs(scene.springs),
+          contents(scene),
           materials(scene.materials),
           metres_per_voxel(scene.metres_per_voxel),
           seed(scene.seed) {}
@@ -87,7 +87,6 @@ struct Renderer::Parts {
         compile_ms += watch.ms();
         return pass;
     }
-    bool may_contain(const Simulation& simulation, std::size_t id) const;
     TraceFeatures features(const Simulation& simulation) const;
     void prepare_targets(const Settings& now, glm::ivec2 size_px);
     void upload_frame(const Simulation& simulation, const Settings& now);
@@ -101,18 +100,10 @@ struct Renderer::Parts {
     void show(const gl::Framebuffer& target, bool raw);
 };
 
-// What the world held at its start, what was built since, and what springs make: more than is there now at
-// most.
-bool Renderer::Parts::may_contain(const Simulation& simulation, std::size_t id) const {
-    return initial.voxels[id] > 0 || simulation.edit_totals().placed.voxels[id] > 0 ||
-           std::any_of(springs.begin(), springs.end(),
-                       [&](const Spring& spring) { return spring.material == id; });
-}
-
 TraceFeatures Renderer::Parts::features(const Simulation& simulation) const {
     TraceFeatures features;
     for (std::size_t id = MATERIAL_AIR + 1; id < materials.size(); ++id) {
-        if (!may_contain(simulation, id)) continue;
+        if (!contents.may_hold(simulation, id)) continue;
         const Material& m = materials[id];
         const bool clear = id == MATERIAL_WATER || id == MATERIAL_GLASS;
         if (clear) features.rough |= m.roughness * m.roughness >= ALPHA_SMOOTH;
@@ -127,7 +118,7 @@ TraceFeatures Renderer::Parts::features(const Simulation& simulation) const {
     features.sky = settings.light_sampling == LightSampling::All;
     features.emitters &= settings.light_sampling != LightSampling::None;
     features.clear_sky = settings.sky_model == SkyModel::Preetham;
-    features.smooth_water = settings.smooth_water && may_contain(simulation, MATERIAL_WATER);
+    features.smooth_water = settings.smooth_water && contents.may_hold(simulation, MATERIAL_WATER);
     features.count = counts_paths(settings.view);
     return features;
 }
@@ -157,6 +148,10 @@ void Renderer::Parts::upload_frame(const Simulation& simulation, const Settings&
         if (eye_moved || change != world_change) has_history = false;
         world_change = change;
     }
+    // A lamp that was built or taken lights all at once; histories behind water would keep its image.
+    const std::uint64_t lamps = contents.emissive_edits(simulation, materials);
+    if (lamps != lamps_edited) has_history = false;
+    lamps_edited = lamps;
     if (!has_history) frames_kept = 0;
     settings = now;
 

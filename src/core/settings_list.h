@@ -75,7 +75,7 @@
     REAL(sky_brightness, 1, 0, 1000, SKY, IMAGE, "Factor on the light of the sky preetham and its sun.")     \
     REAL(time_of_day_h, 12, 0, 24, SKY, NONE,                                                                \
          "Places the sun by the hour of 21 June at 50 degrees north, where noon is at 12 and -z is north; "  \
-         "azimuth and elevation can be moved afterwards.")                                                   \
+         "azimuth and elevation can be moved afterwards. The colours of the sky follow in preetham alone.")  \
     REAL(sun_azimuth_deg, 0, -360, 360, SKY, IMAGE, "Where the sun stands, as a camera's yaw.")              \
     REAL(sun_elevation_deg, 45, -90, 90, SKY, IMAGE, "Height of the sun, as a camera's pitch.")              \
     COLOR(sun_irradiance, 4, 3.6, 3, 0, 1000000, SKY, IMAGE,                                                 \

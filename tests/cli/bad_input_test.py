@@ -16,6 +16,9 @@ WITHOUT_DRIVER = {"__EGL_VENDOR_LIBRARY_FILENAMES": "/nonexistent", "LIBGL_DRIVE
 class BadArguments(Case):
     def test_commands_and_options(self):
         self.refuse([], "subcommand", "--help")
+        for option in ("--camera", "--stats", "--out"):
+            self.refuse(["render", "--scene", "flat", "--out", "x.png", option, ""], option, "empty")
+        self.refuse(["water", "--tier", ""], "--tier", "empty")
         self.refuse(["dig"], "dig", "play, render, simulate, water, light, scenes, settings, doctor")
         self.refuse(["render", "--scene", "flat"], "--out", "required")
         self.refuse(["simulate", "--scene", "flat"], "--ticks", "required")

@@ -1,4 +1,5 @@
-// Nothing is lost or made, with springs, drains and edits. Of every built-in scene: scenes_test, and tests/soak.
+// Nothing is lost or made, with springs, drains and edits. Of every built-in scene: scenes_test, and
+// tests/soak.
 #include "gpu/conservation.h"
 
 #include "gpu/gl_test.h"

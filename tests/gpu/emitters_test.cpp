@@ -282,5 +282,27 @@ TEST_F(EmittersTest, ALampThatIsBuiltAndTakenAwayLightsAndGoesDark) {
     EXPECT_EQ(light(), 0);
 }
 
+TEST_F(EmittersTest, ALampThatIsBuiltOrTakenStartsEveryHistoryAnew) {
+    Scene scene = lamp_room("wall");
+    apply_quality(scene.settings, Quality::Balanced);
+    gl::Timers timers;
+    Simulation simulation(scene, timers);
+    Renderer renderer(scene, timers);
+    EditHistory history;
+    history.begin_stroke();
+    const auto samples_after = [&](std::uint8_t material) {
+        for (int i = 0; i < 3; ++i) renderer.render(simulation, scene.settings, {16, 16});
+        EXPECT_EQ(renderer.samples(), 3u);
+        simulation.apply({.center_vox = {10, 12, 5}, .material = material, .overwrite = true}, history);
+        renderer.render(simulation, scene.settings, {16, 16});
+        const std::uint64_t samples = renderer.samples();
+        renderer.reset_history();
+        return samples;
+    };
+    EXPECT_EQ(samples_after(MATERIAL_STONE), 4u);
+    EXPECT_EQ(samples_after(MATERIAL_LAMP), 1u);
+    EXPECT_EQ(samples_after(MATERIAL_AIR), 1u);
+}
+
 }  // namespace
 }  // namespace tarn

@@ -17,10 +17,6 @@ class ExtremesHistoryTest : public GlTest {};
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-double luminance(glm::dvec3 rgb) {
-    return glm::dot(rgb, glm::dvec3(0.2126, 0.7152, 0.0722));
-}
-
 TEST_F(ExtremesHistoryTest, AMeanAfterAMillionFramesDoesNotDriftOverManyMore) {
     constexpr std::uint32_t million = 1u << 20;
     constexpr int more = 32768;

@@ -2,6 +2,7 @@
 // others are.
 #include <numbers>
 
+#include "microfacet_energy.h"
 #include "studio.h"
 
 namespace tarn {
@@ -10,15 +11,6 @@ namespace {
 class ExtremesLightTest : public GlTest {};
 
 constexpr double pi = std::numbers::pi;
-
-double fresnel(double cos_i, double eta) {
-    const double sin2_t = (1 - cos_i * cos_i) / (eta * eta);
-    if (sin2_t >= 1) return 1;
-    const double cos_t = std::sqrt(1 - sin2_t);
-    const double parallel = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
-    const double perpendicular = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
-    return (parallel * parallel + perpendicular * perpendicular) / 2;
-}
 
 // A slab of one material, two voxels thick, under a uniform sky of radiance 1 and over it; seen from above.
 Scene slab_of(const std::string& material) {
@@ -111,7 +103,7 @@ TEST_F(ExtremesLightTest, GlassThatAbsorbsAllReflectsByFresnel) {
                 scene.materials[MATERIAL_GLASS].absorption_per_m = glm::vec3(1e4f);
                 scene.settings.camera_pitch_deg = pitch_deg;
                 const Picture picture = mean_of(scene, 16, {32, 32});
-                const double expected = fresnel(std::sin(glm::radians(-double{pitch_deg})), index);
+                const double expected = exact_fresnel(std::sin(glm::radians(-double{pitch_deg})), index);
                 // The field of view of a degree bends Fresnel's curve by less than this.
                 EXPECT_NEAR(picture.mean().x, expected, 4 * picture.standard_error() + 1e-3 * expected + 1e-7)
                     << roughness << " " << index << " " << pitch_deg;
@@ -178,7 +170,7 @@ TEST_F(ExtremesLightTest, TheSunAtTheZenithAndTheHorizonThroughWater) {
             water_settings_from(scene.materials, scene.settings);
             const Picture picture = mean_of(scene, 64, {32, 32});
             // Down through the surface and 3 m of water to the floor, and up again.
-            const double passes = 1 - fresnel(1, n);
+            const double passes = 1 - exact_fresnel(1, n);
             const double down = elevation_deg > 0 ? passes * std::exp(-3 * absorption) : 0;
             const double expected = 2 * down * 0.5 / pi * std::exp(-3 * absorption) * passes / (n * n);
             EXPECT_NEAR(picture.mean().x, expected, 4 * picture.standard_error() + 1e-5 * expected)

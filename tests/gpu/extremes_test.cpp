@@ -143,6 +143,7 @@ TEST_F(ExtremesTest, AMillionVoxelsAwayTheWorldIsWhereItIs) {
         EXPECT_EQ(studio.shoot({17, 17}).at(0, 0).x, VIEW_NOTHING) << distance;
         studio.settings().view = ViewKind::Picture;
     }
+    EXPECT_EQ(studio.renderer.rejected_samples(), 0u);
 }
 
 // The depths of a floor whose top is at y = 1, by the eye's rays.

@@ -1,17 +1,11 @@
 // The path tracer against answers known in closed form, and the faults of the 2023 design that concern light.
+#include "microfacet_energy.h"
 #include "picture.h"
 
 namespace tarn {
 namespace {
 
 class LightTest : public GlTest {};
-
-double fresnel(double cos_i, double eta) {
-    const double cos_t = std::sqrt(1 - (1 - cos_i * cos_i) / (eta * eta));
-    const double parallel = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
-    const double perpendicular = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
-    return (parallel * parallel + perpendicular * perpendicular) / 2;
-}
 
 TEST_F(LightTest, FurnaceByBsdfAloneIsExactForEveryBounceCount) {
     for (const int bounces : {0, 1, 2, 3, 7, 20}) {
@@ -86,7 +80,7 @@ Scene lamp_under_water(int depth_vox) {
 
 TEST_F(LightTest, Fault6_WaterAbsorbsByDistanceAndFresnelIsExact) {
     const double n = 1.333;
-    const double transmitted = 1 - fresnel(1, n);
+    const double transmitted = 1 - exact_fresnel(1, n);
     for (const int depth : {1, 2, 8, 30}) {
         // One interface and black lamps: each path either reflects into the black sky or sees the lamp.
         const Picture picture = picture_of(lamp_under_water(depth), 64, {32, 32});
@@ -110,7 +104,7 @@ TEST_F(LightTest, Fault6_ReflectanceAtAnAngleIsFresnelsAndNotSchlicks) {
         scene.settings.camera_pitch_deg = static_cast<float>(angle_deg - 90);
         scene.settings.camera_fov_deg = 1;
         const Picture picture = picture_of(scene, 100, {32, 32});
-        const double expected = fresnel(std::cos(radians), 1.333);
+        const double expected = exact_fresnel(std::cos(radians), 1.333);
         EXPECT_NEAR(picture.mean().x, expected, 0.004 + 0.01 * expected) << angle_deg;
     }
 }

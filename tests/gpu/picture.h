@@ -44,6 +44,10 @@ struct Picture {
     }
 };
 
+inline double luminance(glm::dvec3 rgb) {
+    return glm::dot(rgb, glm::dvec3(0.2126, 0.7152, 0.0722));
+}
+
 // `frames` frames in quality exact with `change` applied to its settings.
 inline Picture picture_of(Scene scene, int frames, glm::ivec2 size_px,
                           const std::function<void(Settings&)>& change = {}) {

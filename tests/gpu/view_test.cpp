@@ -204,10 +204,6 @@ TEST_F(ViewTest, HistoryCountsFramesAndRestartsAfterAJump) {
     }
 }
 
-double luminance(glm::dvec3 rgb) {
-    return glm::dot(rgb, glm::dvec3(0.2126, 0.7152, 0.0722));
-}
-
 TEST_F(ViewTest, ExactVarianceIsThatOfTheFramesOverTheirNumber) {
     const glm::ivec2 size(16, 12);
     Studio single(noisy_floor());

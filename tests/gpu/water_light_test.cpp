@@ -2,6 +2,7 @@
 // angle and window, the critical angle, radiance under water, glass in water.
 #include <numbers>
 
+#include "microfacet_energy.h"
 #include "picture.h"
 
 namespace tarn {
@@ -10,15 +11,6 @@ namespace {
 class WaterLightTest : public GlTest {};
 
 constexpr double degree = std::numbers::pi / 180;
-
-double fresnel(double cos_i, double eta) {
-    const double sin2_t = (1 - cos_i * cos_i) / (eta * eta);
-    if (sin2_t >= 1) return 1;
-    const double cos_t = std::sqrt(1 - sin2_t);
-    const double parallel = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
-    const double perpendicular = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
-    return (parallel * parallel + perpendicular * perpendicular) / 2;
-}
 
 double cos_beyond(double cos_i, double eta) {
     return std::sqrt(1 - (1 - cos_i * cos_i) / (eta * eta));
@@ -64,7 +56,7 @@ TEST_F(WaterLightTest, ASlabTransmitsAndReflectsAsAllItsInternalBouncesDo) {
         for (const float sigma : {0.0f, 0.4f}) {
             for (const double angle_deg : {0.0, 45.0, 70.0}) {
                 const double cos_i = std::cos(angle_deg * degree);
-                const double f = fresnel(cos_i, n);
+                const double f = exact_fresnel(cos_i, n);
                 const double a = std::exp(-static_cast<double>(sigma) * 4 * 0.5 / cos_beyond(cos_i, n));
                 const double transmitted = (1 - f) * (1 - f) * a / (1 - f * f * a * a);
                 const double reflected = f + f * (1 - f) * (1 - f) * a * a / (1 - f * f * a * a);
@@ -112,7 +104,7 @@ TEST_F(WaterLightTest, SnellsWindowEndsAtTheCriticalAngleAndShowsTheSkyByTheInde
             const double u = (2 * (x + 0.5) / side - 1) * half;
             const double v = (2 * (y + 0.5) / side - 1) * half;
             const double cos_i = 1 / std::sqrt(1 + u * u + v * v);
-            const double f = fresnel(cos_i, 1 / n);
+            const double f = exact_fresnel(cos_i, 1 / n);
             if (f == 1) outside = std::max(outside, picture.at(x, y).x);
             const auto ring = static_cast<std::size_t>(std::acos(cos_i) / degree);
             measured[ring] += picture.at(x, y).x;
@@ -154,7 +146,7 @@ TEST_F(WaterLightTest, RefractedRaysMeetTheBedWhereSnellsLawSays) {
                     q.jitter = false;
                     q.max_bounces = 1;
                 });
-                const double shown = (1 - fresnel(std::cos(angle_deg * degree), n)) / (n * n);
+                const double shown = (1 - exact_fresnel(std::cos(angle_deg * degree), n)) / (n * n);
                 if (offset < 0)
                     EXPECT_EQ(picture.mean().x, 0) << n << " " << angle_deg;
                 else
