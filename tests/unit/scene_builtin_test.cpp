@@ -13,8 +13,9 @@ TEST(BuiltinScenes, AreThoseOfTheContractEachWithItsLine) {
         EXPECT_GT(scene.description.size(), 10u) << scene.name;
         EXPECT_EQ(scene.description.find('\n'), std::string::npos);
     }
-    EXPECT_EQ(names, (std::vector<std::string>{"cave", "dam-break", "flat", "fountain", "furnace", "gallery",
-                                               "islands", "lake", "locks", "u-tube", "waterfall"}));
+    EXPECT_EQ(names,
+              (std::vector<std::string>{"baths", "cave", "dam-break", "flat", "fountain", "furnace",
+                                        "gallery", "islands", "lake", "locks", "u-tube", "waterfall"}));
 }
 
 TEST(BuiltinScenes, LoadTheSameTwiceWithTheEyeInAir) {
