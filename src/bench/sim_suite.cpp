@@ -1,0 +1,124 @@
+// Ticks of the terrain's world: all of it awake, a tenth of it, none; and a copy of its bytes as the floor.
+#include <algorithm>
+#include <cstring>
+#include <thread>
+
+#include "app/stopwatch.h"
+#include "bench/bench_suites.h"
+#include "core/error.h"
+#include "passes/bricks.h"
+#include "shared/bindings.h"
+#include "shared/water.h"
+
+namespace tarn {
+
+namespace {
+
+constexpr int ticks_a_sample = 2;
+constexpr int ticks_a_sample_asleep = 32;
+// Ticks after which the lake must have come to rest.
+constexpr int settle_ticks_max = 16 * SLEEP_TICKS;
+
+double tick_ms(BenchWorld& world, int ticks) {
+    const Settings& settings = world.scene.settings;
+    glFinish();
+    const Stopwatch watch;
+    for (int i = 0; i < ticks; ++i) world.simulation.step(1, settings);
+    glFinish();
+    const double ms = watch.ms() / ticks;
+    world.timers.end_frame();
+    world.timers.finish();
+    return ms;
+}
+
+// False where the world does not come to rest.
+bool settle(BenchWorld& world) {
+    for (int done = 0; world.simulation.active_bricks() > 0; done += 8) {
+        if (done >= settle_ticks_max) return false;
+        tick_ms(world, 8);
+    }
+    return true;
+}
+
+// One cell of every brick in a tenth of the world, from x = 0, becomes another solid: it moves nothing and
+// wakes the brick.
+void wake_a_tenth(BenchWorld& world) {
+    const glm::ivec3 bricks = bricks_of(world.simulation.size_vox());
+    const int end_x = std::max(1, bricks.x / 10);
+    const Cells cells = world.simulation.read_cells();
+    std::vector<CellChange> changes;
+    for (int z = 0; z < bricks.z; ++z)
+        for (int y = 0; y < bricks.y; ++y)
+            for (int x = 0; x < end_x; ++x) {
+                const glm::ivec3 cell = glm::ivec3(x, y, z) * BRICK_SIDE;
+                const std::uint8_t before = cells.at(cell);
+                changes.push_back({cell, before, before == MATERIAL_STONE ? MATERIAL_DIRT : MATERIAL_STONE});
+            }
+    world.simulation.write(changes);
+    world.timers.end_frame();
+    world.timers.finish();
+}
+
+// By every thread, a part each.
+double copy_ms(const std::vector<std::uint8_t>& from, std::vector<std::uint8_t>& to, int threads) {
+    const std::size_t part = from.size() / static_cast<std::size_t>(threads);
+    const Stopwatch watch;
+    std::vector<std::thread> workers;
+    for (int i = 0; i < threads; ++i) {
+        const std::size_t first = part * static_cast<std::size_t>(i);
+        const std::size_t count = i + 1 == threads ? from.size() - first : part;
+        workers.emplace_back(
+            [&, first, count] { std::memcpy(to.data() + first, from.data() + first, count); });
+    }
+    for (std::thread& worker : workers) worker.join();
+    return watch.ms();
+}
+
+void measure_world(int side_vox, const BenchOptions& options, BenchResult& result) {
+    const std::string scene = bench_scene_name(side_vox);
+    options.progress(fmt::format("sim: bringing {} to rest", scene));
+    const auto resting = make_bench_world(side_vox);
+    const auto awake = make_bench_world(side_vox);
+    if (!settle(*resting)) {
+        result.failures.push_back(fmt::format("sim {}: not at rest after {} ticks", scene, settle_ticks_max));
+        return;
+    }
+    const auto bricks = [](const BenchWorld& world) {
+        return Sample{"active bricks", "bricks", static_cast<double>(world.simulation.active_bricks())};
+    };
+    std::vector<std::uint8_t> copy(resting->scene.cells.count());
+    std::vector<Contestant> contestants;
+    const auto add = [&](const char* who, std::function<std::vector<Sample>()> run) {
+        contestants.push_back({.suite = "sim", .scene = scene, .who = who, .run = std::move(run)});
+    };
+    add("awake", [&] {
+        awake->simulation.set_tick(awake->simulation.tick());  // wakes all
+        const double ms = tick_ms(*awake, ticks_a_sample);
+        return std::vector<Sample>{{"tick", "ms", ms}, bricks(*awake)};
+    });
+    add("asleep", [&] {
+        const double ms = tick_ms(*resting, ticks_a_sample_asleep);
+        return std::vector<Sample>{{"tick", "ms", ms}, bricks(*resting)};
+    });
+    add("tenth", [&] {
+        wake_a_tenth(*resting);
+        const double ms = tick_ms(*resting, ticks_a_sample);
+        const Sample active = bricks(*resting);
+        if (!settle(*resting)) fail("sim {}: a tenth of it, woken, does not come to rest", scene);
+        return std::vector<Sample>{{"tick", "ms", ms}, active};
+    });
+    add("copy", [&] {
+        const double ms = copy_ms(resting->scene.cells.bytes(), copy, options.threads);
+        return std::vector<Sample>{{"cells", "ms", ms}};
+    });
+    run_rounds(contestants, {.rounds = options.rounds, .budget_ms = 6000}, result.figures, options.progress);
+}
+
+}  // namespace
+
+void run_sim_suite(const BenchOptions& options, BenchResult& result) {
+    result.notes.emplace_back("sim: a multithreaded CPU step is left out: there is none yet");
+    for (const int side : options.sides_vox) measure_world(side, options, result);
+}
+
+}  // namespace tarn
