@@ -2,13 +2,14 @@
 
 #include <fcntl.h>
 #include <spawn.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 
 #include <fmt/format.h>
 
@@ -27,6 +28,16 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
     return list;
 }
 
+constexpr useconds_t poll_us = 2000;
+
+// Most that a running process has held so far; 0 where it has ended.
+double peak_mib_of(pid_t process) {
+    std::ifstream file(fmt::format("/proc/{}/status", process));
+    for (std::string line; std::getline(file, line);)
+        if (line.starts_with("VmHWM:")) return std::strtod(line.c_str() + 6, nullptr) / 1024;
+    return 0;
+}
+
 }  // namespace
 
 ChildRun run_self(const std::vector<std::string>& arguments,
@@ -35,7 +46,8 @@ ChildRun run_self(const std::vector<std::string>& arguments,
     std::vector<std::string> words{program};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<std::string> variables;
-    for (const auto& [name, value] : environment) variables.push_back(name + "=" + value);
+    variables.reserve(environment.size());
+    for (const auto& [name, value] : environment) variables.push_back(fmt::format("{}={}", name, value));
     for (char** variable = environ; *variable != nullptr; ++variable) {
         const std::string text = *variable;
         const std::string name = text.substr(0, text.find('='));
@@ -53,13 +65,19 @@ ChildRun run_self(const std::vector<std::string>& arguments,
                                   pointers(variables).data());
     posix_spawn_file_actions_destroy(&actions);
     if (error != 0) fail("cannot run {}: {}", program, std::strerror(error));
+    // Not wait4's ru_maxrss: that begins at what this program held when it spawned the child.
+    double peak_mib = 0;
     int status = 0;
-    rusage usage{};
-    if (wait4(child, &status, 0, &usage) != child) fail("cannot wait for {}", program);
+    pid_t ended = 0;
+    while ((ended = waitpid(child, &status, WNOHANG)) == 0) {
+        peak_mib = std::max(peak_mib, peak_mib_of(child));
+        usleep(poll_us);
+    }
     const double wall_s = watch.ms() / 1e3;
+    if (ended != child) fail("cannot wait for {}", program);
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
         fail("tarn {} ended with status {}", fmt::join(arguments, " "), status);
-    return {.wall_s = wall_s, .peak_mib = static_cast<double>(usage.ru_maxrss) / 1024};
+    return {.wall_s = wall_s, .peak_mib = peak_mib};
 }
 
 TemporaryFolder::TemporaryFolder() {

@@ -7,8 +7,8 @@
 namespace tarn {
 
 struct ChildRun {
-    double wall_s = 0;    // from its start to its end
-    double peak_mib = 0;  // most memory it held at once
+    double wall_s = 0;    // from its start to its end, to 2 ms
+    double peak_mib = 0;  // most memory that it held, up to 2 ms before its end
 };
 
 // `environment` is set beside what this program has. Its standard output is dropped. Throws Error with the

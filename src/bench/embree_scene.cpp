@@ -266,6 +266,7 @@ double EmbreeScene::trace(const EmbreeRays& rays, bool packets, std::vector<floa
     };
     const Stopwatch watch;
     std::vector<std::thread> threads;
+    threads.reserve(static_cast<std::size_t>(parts_->threads));
     for (int i = 0; i < parts_->threads; ++i) threads.emplace_back(work);
     for (std::thread& thread : threads) thread.join();
     const double ms = watch.ms();

@@ -12,8 +12,6 @@ namespace tarn {
 
 namespace {
 
-constexpr int rounds_always = 2;
-
 // Between the samples by linear interpolation; `sorted` is not empty.
 double quantile(const std::vector<double>& sorted, double part) {
     const double at = part * static_cast<double>(sorted.size() - 1);
@@ -74,7 +72,7 @@ void run_rounds(std::vector<Contestant>& contestants, const RoundOptions& option
     std::vector<double> used_ms(contestants.size(), 0);
     for (int round = 0; round < options.rounds; ++round) {
         for (std::size_t i = 0; i < contestants.size(); ++i) {
-            if (round >= rounds_always && used_ms[i] >= options.budget_ms) continue;
+            if (round > 0 && used_ms[i] >= options.budget_ms) continue;
             const Contestant& c = contestants[i];
             show(c);
             const Stopwatch watch;

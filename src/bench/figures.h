@@ -47,7 +47,7 @@ struct Contestant {
 
 struct RoundOptions {
     int rounds = 5;
-    // A contestant that has used it up takes part in no further round, after the second.
+    // A contestant that has used it up takes part in no further round.
     double budget_ms = 2000;
 };
 

@@ -33,6 +33,7 @@ class FrameCase {
         glFinish();
         const std::string what = fmt::format("frame {}x{}", size_px.x, size_px.y);
         std::vector<Sample> samples{{what, "ms", watch.ms()}};
+        if (first_frame_ms_ == 0) first_frame_ms_ = samples.front().value;
         timers_.end_frame();
         timers_.finish();
         for (const gl::PassTime& pass : timers_.passes())
@@ -40,13 +41,15 @@ class FrameCase {
                 samples.push_back({what + ": " + pass.name, "ms", pass.last_ms});
         return samples;
     }
-    double compile_ms() const { return renderer_.compile_ms(); }
+    // With the compilation of its programs, as far as the driver's cache does not hold them.
+    double first_frame_ms() const { return first_frame_ms_; }
 
   private:
     const Simulation& simulation_;
     Settings settings_;
     gl::Timers timers_;
     Renderer renderer_;
+    double first_frame_ms_ = 0;
 };
 
 void measure_scene(const BenchWorld& world, const BenchOptions& options, BenchResult& result) {
@@ -72,11 +75,12 @@ void measure_scene(const BenchWorld& world, const BenchOptions& options, BenchRe
                      return std::vector<Sample>{{fmt::format("primary rays {}x{}", size_px.x, size_px.y),
                                                  "ms", embree->trace(rays, true, distance)}};
                  }});
-        run_rounds(contestants, {.rounds = options.rounds}, result.figures, options.progress);
+        run_rounds(contestants, {.rounds = options.rounds, .budget_ms = 1000}, result.figures,
+                   options.progress);
     }
     for (std::size_t i = 0; i < names.size(); ++i)
-        add_sample(result.figures, {"frame", world.scene.name, "compiling", names[i]}, "ms",
-                   cases[i]->compile_ms());
+        add_sample(result.figures, {"frame", world.scene.name, "first frame, compiling", names[i]}, "ms",
+                   cases[i]->first_frame_ms());
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ void add_contestants(RayWorld& in, std::vector<Contestant>& contestants) {
     const std::string scene = in.world->scene.name;
     for (const auto& pointer : in.cases) {
         RayCase* const c = pointer.get();
-        const auto add = [&](const char* who, std::function<double()> run_ms) {
+        const auto add = [&](const char* who, const std::function<double()>& run_ms) {
             contestants.push_back(
                 {.suite = "rays", .scene = scene, .who = who, .run = [c, run_ms] {
                      const double rays = static_cast<double>(c->set.rays.size());
@@ -77,7 +77,7 @@ void compare_results(const RayWorld& in, BenchResult& result) {
         const RayKernel::Result voxel = c->voxel_by_voxel.read();
         const std::string& kind = c->set.name;
         const auto add = [&](const std::string& what, const char* who, const char* unit, double value) {
-            add_sample(result.figures, {"rays", scene, kind + ": " + what, who}, unit, value);
+            add_sample(result.figures, {"rays", scene, fmt::format("{}: {}", kind, what), who}, unit, value);
         };
         add("rays", "all", "rays", static_cast<double>(c->set.rays.size()));
         add("steps", "tarn", "steps", tarn.mean_steps);
