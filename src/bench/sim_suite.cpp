@@ -1,14 +1,14 @@
 // Ticks of the terrain's world: all of it awake, a tenth of it, none; and a copy of its bytes as the floor.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstring>
 #include <thread>
 
 #include "app/stopwatch.h"
 #include "bench/bench_suites.h"
-#include "core/error.h"
 #include "passes/bricks.h"
 #include "shared/bindings.h"
-#include "shared/water.h"
 
 namespace tarn {
 
@@ -16,9 +16,6 @@ namespace {
 
 constexpr int ticks_a_sample = 2;
 constexpr int ticks_a_sample_asleep = 32;
-// Ticks after which the lake must have come to rest.
-constexpr int settle_ticks_max = 16 * SLEEP_TICKS;
-
 double tick_ms(BenchWorld& world, int ticks) {
     const Settings& settings = world.scene.settings;
     glFinish();
@@ -29,15 +26,6 @@ double tick_ms(BenchWorld& world, int ticks) {
     world.timers.end_frame();
     world.timers.finish();
     return ms;
-}
-
-// False where the world does not come to rest.
-bool settle(BenchWorld& world) {
-    for (int done = 0; world.simulation.active_bricks() > 0; done += 8) {
-        if (done >= settle_ticks_max) return false;
-        tick_ms(world, 8);
-    }
-    return true;
 }
 
 // One cell of every brick in a tenth of the world, from x = 0, becomes another solid: it moves nothing and
@@ -76,39 +64,34 @@ double copy_ms(const std::vector<std::uint8_t>& from, std::vector<std::uint8_t>&
 
 void measure_world(int side_vox, const BenchOptions& options, BenchResult& result) {
     const std::string scene = bench_scene_name(side_vox);
-    options.progress(fmt::format("sim: bringing {} to rest", scene));
-    const auto resting = make_bench_world(side_vox);
-    const auto awake = make_bench_world(side_vox);
-    if (!settle(*resting)) {
-        result.failures.push_back(fmt::format("sim {}: not at rest after {} ticks", scene, settle_ticks_max));
-        return;
-    }
-    const auto bricks = [](const BenchWorld& world) {
-        return Sample{"active bricks", "bricks", static_cast<double>(world.simulation.active_bricks())};
-    };
-    std::vector<std::uint8_t> copy(resting->scene.cells.count());
+    options.progress(fmt::format("sim: building {}", scene));
+    const auto world = make_bench_world(side_vox);
+    std::vector<std::uint8_t> copy(world->scene.cells.count());
     std::vector<Contestant> contestants;
     const auto add = [&](const char* who, std::function<std::vector<Sample>()> run) {
         contestants.push_back({.suite = "sim", .scene = scene, .who = who, .run = std::move(run)});
     };
+    const auto ticks = [&](int count) {
+        const double ms = tick_ms(*world, count);
+        return std::vector<Sample>{
+            {"tick", "ms", ms},
+            {"active bricks", "bricks", static_cast<double>(world->simulation.active_bricks())}};
+    };
     add("awake", [&] {
-        awake->simulation.set_tick(awake->simulation.tick());  // wakes all
-        const double ms = tick_ms(*awake, ticks_a_sample);
-        return std::vector<Sample>{{"tick", "ms", ms}, bricks(*awake)};
-    });
-    add("asleep", [&] {
-        const double ms = tick_ms(*resting, ticks_a_sample_asleep);
-        return std::vector<Sample>{{"tick", "ms", ms}, bricks(*resting)};
+        world->simulation.set_tick(world->simulation.tick());  // wakes all
+        return ticks(ticks_a_sample);
     });
     add("tenth", [&] {
-        wake_a_tenth(*resting);
-        const double ms = tick_ms(*resting, ticks_a_sample);
-        const Sample active = bricks(*resting);
-        if (!settle(*resting)) fail("sim {}: a tenth of it, woken, does not come to rest", scene);
-        return std::vector<Sample>{{"tick", "ms", ms}, active};
+        world->simulation.put_to_sleep();
+        wake_a_tenth(*world);
+        return ticks(ticks_a_sample);
+    });
+    add("asleep", [&] {
+        world->simulation.put_to_sleep();
+        return ticks(ticks_a_sample_asleep);
     });
     add("copy", [&] {
-        const double ms = copy_ms(resting->scene.cells.bytes(), copy, options.threads);
+        const double ms = copy_ms(world->scene.cells.bytes(), copy, options.threads);
         return std::vector<Sample>{{"cells", "ms", ms}};
     });
     run_rounds(contestants, {.rounds = options.rounds, .budget_ms = 6000}, result.figures, options.progress);
