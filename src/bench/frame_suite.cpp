@@ -75,7 +75,7 @@ void measure_scene(const BenchWorld& world, const BenchOptions& options, BenchRe
                      return std::vector<Sample>{{fmt::format("primary rays {}x{}", size_px.x, size_px.y),
                                                  "ms", embree->trace(rays, true, distance)}};
                  }});
-        run_rounds(contestants, {.rounds = options.rounds, .budget_ms = 1000}, result.figures,
+        run_rounds(contestants, {.rounds = options.rounds, .budget_ms = 1500}, result.figures,
                    options.progress);
     }
     for (std::size_t i = 0; i < names.size(); ++i)

@@ -43,7 +43,7 @@ void run_start_suite(const BenchOptions& options, BenchResult& result) {
         contestants.push_back(
             {.suite = "start", .scene = c.name, .who = "warm", .run = [&start, &c] { return start(c); }});
     }
-    run_rounds(contestants, {.rounds = options.rounds, .budget_ms = 12000}, result.figures, options.progress);
+    run_rounds(contestants, {.rounds = options.rounds, .budget_ms = 6000}, result.figures, options.progress);
 }
 
 }  // namespace tarn

@@ -52,6 +52,24 @@ class Bench(Case):
         for who in ("radius 1", "radius 8", "radius 32"):
             self.assertGreater(figures["edit", "terrain-32", "stroke", who]["median"], 0)
 
+    def test_frames(self):
+        text, report, figures = self.run_short("frame", "frames")
+        for scene in ("lake", "terrain-32"):
+            for size in ("640x360", "1280x720"):
+                for who in ("baseline", "fast", "balanced", "quality", "exact"):
+                    self.assertGreater(figures["frame", scene, "frame " + size, who]["median"], 0)
+                    passes = {what.split(": ")[1]: figure["median"] for (_, of, what, by), figure in figures.items()
+                              if of == scene and by == who and what.startswith(f"frame {size}: ")}
+                    last = {"accumulate"} if who == "exact" else {"temporal", "filter"}
+                    self.assertEqual(set(passes), {"trace", "display", *last}, (scene, size, who))
+                    self.assertGreater(min(passes.values()), 0)
+            if report["about"]["embree"]:
+                self.assertGreater(figures["frame", scene, "primary rays 640x360", "embree-8"]["median"], 0)
+        if report["about"]["embree"]:
+            self.assertEqual(len([bar for bar in report["bars"] if bar["what"].startswith("frame")]), 2)
+        else:
+            self.assertIn("Embree is left out", text)
+
     def test_compare(self):
         self.run_short("edit", "old")
         text = self.succeed(*SHORT, "--suite", "edit", "--compare", "old/bench.json")
