@@ -12,6 +12,8 @@ namespace tarn {
 
 namespace {
 
+constexpr int runs_of_a_mean_max = 10000;
+
 // Between the samples by linear interpolation; `sorted` is not empty.
 double quantile(const std::vector<double>& sorted, double part) {
     const double at = part * static_cast<double>(sorted.size() - 1);
@@ -49,6 +51,16 @@ double ratio_of(const Figure& a, const Figure& b) {
     std::vector<double> ratios;
     for (std::size_t i = 0; i < rounds; ++i) ratios.push_back(a.samples[i] / b.samples[i]);
     return statistics_of(ratios).median;
+}
+
+double mean_ms_of_runs(double least_ms, const std::function<double()>& run_ms) {
+    double sum_ms = 0;
+    int runs = 0;
+    do {
+        sum_ms += run_ms();
+        ++runs;
+    } while (sum_ms < least_ms && runs < runs_of_a_mean_max);
+    return sum_ms / runs;
 }
 
 void add_sample(std::vector<Figure>& figures, const FigureKey& key, const std::string& unit, double value) {

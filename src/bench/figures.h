@@ -35,6 +35,11 @@ const Figure* find_figure(std::span<const Figure> figures, const FigureKey& key)
 // a over b: the median over the rounds that both took part in of their ratio in that round.
 double ratio_of(const Figure& a, const Figure& b);
 
+// The mean of what `run_ms` returns, over as many runs as take `least_ms` by that count: on a busy machine
+// short runs slip between the turns of other programs, and would look better than what they are compared
+// with.
+double mean_ms_of_runs(double least_ms, const std::function<double()>& run_ms);
+
 // One sample of a contestant may hold several figures: a frame and its passes.
 struct Sample {
     std::string what, unit;

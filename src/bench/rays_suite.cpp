@@ -15,8 +15,7 @@ namespace tarn {
 namespace {
 
 constexpr glm::ivec2 size_px{640, 360};
-// A run takes some 10 ms, in which another program's turn shows: more of them.
-constexpr int rounds_factor = 3;
+constexpr double sample_least_ms = 100;
 // Faces lie a voxel apart, but beside edges; Embree's floats err by far less.
 constexpr double distance_tolerance_vox = 0.01;
 // Rays along edges and into corners differ by rounding.
@@ -56,7 +55,8 @@ void add_contestants(RayWorld& in, std::vector<Contestant>& contestants) {
             contestants.push_back(
                 {.suite = "rays", .scene = scene, .who = who, .run = [c, run_ms] {
                      const double rays = static_cast<double>(c->set.rays.size());
-                     return std::vector<Sample>{{c->set.name, "Mrays/s", rays / run_ms() / 1e3}};
+                     return std::vector<Sample>{
+                         {c->set.name, "Mrays/s", rays / mean_ms_of_runs(sample_least_ms, run_ms) / 1e3}};
                  }});
         };
         const Simulation* simulation = &in.world->simulation;
@@ -127,7 +127,7 @@ void run_rays_suite(const BenchOptions& options, BenchResult& result) {
         }
         add_contestants(in, contestants);
     }
-    run_rounds(contestants, {.rounds = rounds_factor * options.rounds}, result.figures, options.progress);
+    run_rounds(contestants, {.rounds = options.rounds}, result.figures, options.progress);
     for (const RayWorld& in : worlds) compare_results(in, result);
 }
 

@@ -94,7 +94,7 @@ void measure_world(int side_vox, const BenchOptions& options, BenchResult& resul
         const double ms = copy_ms(world->scene.cells.bytes(), copy, options.threads);
         return std::vector<Sample>{{"cells", "ms", ms}};
     });
-    run_rounds(contestants, {.rounds = options.rounds, .budget_ms = 6000}, result.figures, options.progress);
+    run_rounds(contestants, {.rounds = options.rounds, .budget_ms = 8000}, result.figures, options.progress);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ WITHOUT_DRIVER = {"__EGL_VENDOR_LIBRARY_FILENAMES": "/nonexistent", "LIBGL_DRIVE
 class BadArguments(Case):
     def test_commands_and_options(self):
         self.refuse([], "subcommand", "--help")
-        self.refuse(["dig"], "dig", "play, render, simulate, water, light, scenes, settings, doctor")
+        self.refuse(["dig"], "dig", "play, render, simulate, water, light, bench, scenes, settings, doctor")
         self.refuse(["render", "--scene", "flat"], "--out", "required")
         self.refuse(["simulate", "--scene", "flat"], "--ticks", "required")
         self.refuse(["simulate", "--ticks", "1"], "--scene", "required")

@@ -43,6 +43,13 @@ TEST(BenchFigures, RatesAreBetterWhenHigher) {
     for (const char* unit : {"ms", "s", "MiB", "steps"}) EXPECT_FALSE(more_is_better(unit)) << unit;
 }
 
+TEST(BenchFigures, MeansGoOverEnoughRuns) {
+    int runs = 0;
+    EXPECT_EQ(mean_ms_of_runs(10, [&] { return ++runs; }), 2.5);  // 1 + 2 + 3 + 4
+    EXPECT_EQ(runs, 4);
+    EXPECT_EQ(mean_ms_of_runs(10, [&] { return 50; }), 50);
+}
+
 TEST(BenchFigures, ContestantsTakeTurnsAndTheirFirstRunsDoNotCount) {
     std::string order;
     std::vector<Contestant> contestants;
