@@ -31,6 +31,20 @@ std::string line_value(const char* path, const std::string& name) {
     return "";
 }
 
+// Ratios within a run hold less of what else the machine did than its times.
+std::string compare_bars(const std::vector<BarRow>& before, const std::vector<BarRow>& now) {
+    std::string text;
+    for (std::size_t i = 0; i < now.size(); ++i) {
+        if (!before[i].value || !now[i].value) continue;
+        if (text.empty())
+            text = fmt::format("\n{:<66} {:>9} {:>9} {:>8}\n", "bar: a ratio within each run", "old", "new",
+                               "new/old");
+        text += fmt::format("{:<66} {:>9.4g} {:>9.4g} {:>8.3f}\n", now[i].what, *before[i].value,
+                            *now[i].value, *now[i].value / *before[i].value);
+    }
+    return text;
+}
+
 }  // namespace
 
 std::vector<std::pair<std::string, std::string>> about_machine() {
@@ -122,9 +136,8 @@ std::vector<Figure> read_bench_json(const std::string& text, const std::string& 
 }
 
 std::string compare_text(std::span<const Figure> before, std::span<const Figure> now) {
-    std::string text =
-        fmt::format("{:<6} {:<12} {:<30} {:<10} {:>9} {:>11} {:>11} {:>8}  {}\n", "suite", "scene", "what",
-                    "who", "unit", "old", "new", "new/old", "beyond the spread");
+    std::string text = fmt::format("{:<6} {:<12} {:<30} {:<10} {:>9} {:>11} {:>11} {:>8}  {}\n", "suite",
+                                   "scene", "what", "who", "unit", "old", "new", "new/old", "samples apart");
     std::size_t shared = 0;
     for (const Figure& f : now) {
         const Figure* const old = find_figure(before, f.key);
@@ -143,8 +156,9 @@ std::string compare_text(std::span<const Figure> before, std::span<const Figure>
                             verdict);
     }
     if (shared == 0) return "no figure is in both runs\n";
-    return text + fmt::format("{} figures in both, {} only in the old, {} only in the new run\n", shared,
-                              before.size() - shared, now.size() - shared);
+    text += fmt::format("{} figures in both, {} only in the old, {} only in the new run\n", shared,
+                        before.size() - shared, now.size() - shared);
+    return text + compare_bars(bar_rows(before), bar_rows(now));
 }
 
 }  // namespace tarn

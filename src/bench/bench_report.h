@@ -26,8 +26,8 @@ std::string bench_json(const BenchReport& report);       // every sample
 // Figures of bench_json's text; `origin` names it in errors. Throws Error where it is something else.
 std::vector<Figure> read_bench_json(const std::string& text, const std::string& origin);
 
-// Ratios of medians, new / old, of the figures that both hold; the largest gain or loss has no say in it: a
-// machine's other work is in them.
+// Ratios of medians, new / old, of the figures that both hold, and whether all samples of one run lie beyond
+// those of the other: a busy machine suffices for that. Below them the bars of both.
 std::string compare_text(std::span<const Figure> before, std::span<const Figure> now);
 
 }  // namespace tarn

@@ -70,6 +70,19 @@ TEST(BenchReport, ComparesWhatBothRunsHold) {
     EXPECT_EQ(compare_text(figures, {}), "no figure is in both runs\n");
 }
 
+TEST(BenchReport, ComparesTheBarsOfBothRuns) {
+    const auto run = [](double tarn, double embree) {
+        return std::vector<Figure>{{{"rays", "terrain-128", "primary", "tarn"}, "Mrays/s", {tarn}},
+                                   {{"rays", "terrain-128", "primary", "embree-8"}, "Mrays/s", {embree}}};
+    };
+    // Half the speed of both: a busy machine, no loss.
+    const std::string busy = line_with(compare_text(run(6, 12), run(3, 6)), "Embree's packets");
+    EXPECT_TRUE(busy.ends_with("0.5       0.5    1.000")) << busy;
+    const std::string gain = line_with(compare_text(run(6, 12), run(9, 12)), "Embree's packets");
+    EXPECT_TRUE(gain.ends_with("0.5      0.75    1.500")) << gain;
+    EXPECT_EQ(compare_text(figures, figures).find("bar:"), std::string::npos);  // neither holds Embree
+}
+
 TEST(BenchReport, RefusesOtherFiles) {
     EXPECT_NE(refusal("{}").find("old.json: not a bench.json"), std::string::npos) << refusal("{}");
     EXPECT_NE(refusal("not json").find("old.json"), std::string::npos);
