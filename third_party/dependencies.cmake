@@ -9,6 +9,10 @@ find_package(OpenEXR REQUIRED CONFIG)
 pkg_check_modules(IMGUI REQUIRED IMPORTED_TARGET imgui)
 find_path(CLI11_INCLUDE CLI/CLI.hpp REQUIRED)
 find_path(STB_INCLUDE stb/stb_image_write.h REQUIRED)
+find_package(Threads REQUIRED)
+# Optional: what `tarn bench` compares rays with (Debian: libembree-dev).
+find_path(EMBREE_INCLUDE embree3/rtcore.h)
+find_library(EMBREE_LIBRARY embree3)
 
 # glad: the loader is generated into the build tree from the gl.xml that the python3-glad package ships.
 find_program(TARN_PYTHON NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH REQUIRED)

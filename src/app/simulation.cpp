@@ -291,6 +291,9 @@ void Simulation::set_tick(std::uint64_t tick) {
 void Simulation::set_always_awake(bool on) {
     parts_->always_awake = on;
 }
+void Simulation::put_to_sleep() {
+    parts_->water.sleep_all(parts_->tick32());
+}
 std::uint32_t Simulation::active_bricks() const {
     return parts_->water.active_bricks();
 }

@@ -54,6 +54,8 @@ class Simulation {
     void set_tick(std::uint64_t tick);  // for tests of counter wrap
     // For measurements: nothing sleeps.
     void set_always_awake(bool on);
+    // For measurements: all sleeps, at rest or not, until something wakes it.
+    void put_to_sleep();
     // Bricks with a change in the last SLEEP_TICKS ticks: 0 when all is at rest. Waits for the GPU.
     std::uint32_t active_bricks() const;
     // Counts every step, edit or load that may have changed a cell.

@@ -39,6 +39,7 @@ class Water {
     // All cells are new, or the tick counter was set: everything wakes.
     void load(const Cells& cells, std::uint32_t tick);
     void wake_all(std::uint32_t tick) { activity_.wake_all(tick); }
+    void sleep_all(std::uint32_t tick) { activity_.sleep_all(tick); }
     // An edit before `tick` changed cells of these bricks; `before` and `after` are bytes of one box.
     void edited(const std::vector<std::uint32_t>& bricks, const std::vector<std::uint8_t>& before,
                 const std::vector<std::uint8_t>& after, std::uint32_t tick);

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <limits>
 
+#include "cli/bench_command.h"
 #include "core/error.h"
 #include "measure/light_table.h"
 #include "measure/water_scenarios.h"
@@ -115,6 +116,38 @@ void light_options(CLI::App* light, Arguments& arguments) {
     light->footer(footer);
 }
 
+void bench_options(CLI::App* bench, Arguments& arguments) {
+    bench->add_option(
+        "--suite", arguments.suites,
+        fmt::format("Suites below, separated by commas (all): {}", fmt::join(bench_suites(), ", ")));
+    bench->add_option("--sizes", arguments.bench_sides_vox, "Sides of the terrain, in voxels (128,256,512)")
+        ->delimiter(',')
+        ->check(CLI::Range(16, 1024));
+    bench
+        ->add_option("--repeats", arguments.repeats,
+                     "Rounds, taken in turn by all that is compared; what is slow takes part in fewer (5)")
+        ->check(CLI::Range(1, 1000));
+    bench->add_option("--out", arguments.out,
+                      "Folder for bench.json and bench.csv; made where it is missing");
+    auto* compare = bench->add_option("--compare", arguments.compare,
+                                      "bench.json of an earlier run: prints the ratios of this one to it");
+    bench->add_option("--with", arguments.with, "bench.json of another run, in place of a run now")
+        ->needs(compare);
+    bench->footer(
+        "Suites:\n"
+        "  rays   primary, diffuse, in-water and shadow rays a second: Tarn (tarn), Tarn without skipping "
+        "(voxel),\n"
+        "         Embree's packets and single rays (embree-8, embree-1), where it is built in\n"
+        "  frame  frames of every quality at 640x360 and 1280x720, and their passes\n"
+        "  sim    ticks: all awake, a tenth awake, asleep; a copy of the cells' bytes\n"
+        "  edit   strokes of the brush of radius 1, 8 and 32\n"
+        "  start  the program's start to its first frame, with empty and with filled caches of shaders; peak "
+        "memory\n"
+        "Medians and the spread between quartiles; `bars` are ratios within the run. Exit code 1: "
+        "contestants do\n"
+        "not find the same, or a world does not come to rest.");
+}
+
 // CLI11 spreads its help over lines; an error is one.
 std::string one_line(std::string text) {
     std::replace(text.begin(), text.end(), '\n', ' ');
@@ -195,12 +228,18 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
         "light", "Measure the ways of finding light: means, variances and times of strategies side by side");
     light_options(light, arguments);
 
+    CLI::App* bench = app.add_subcommand(
+        "bench",
+        "Measure speed: rays, frames, ticks, edits and starts, each beside what it is compared with");
+    bench_options(bench, arguments);
+
     app.add_subcommand("scenes", "List the built-in scenes");
     app.add_subcommand("settings", "List every setting: key, range, default, help");
     app.add_subcommand("doctor", "Check the driver and run a self-test; exit code 0 or 1");
 
     const auto named = [&](const CLI::App* command) { return command->check_name(argv[1]); };
     if (argc > 1 && *argv[1] != '-' && app.get_subcommands(named).empty())
+<<<<<<< HEAD
         fail("{}: no such command; allowed: play, render, simulate, water, light, scenes, settings, doctor",
              argv[1]);
     for (CLI::App* command : app.get_subcommands({}))
@@ -208,6 +247,12 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
             if (option->get_expected_min() > 0)
                 option->check(CLI::Validator(
                     [](const std::string& value) { return value.empty() ? std::string("empty") : ""; }, ""));
+=======
+        fail(
+            "{}: no such command; allowed: play, render, simulate, water, light, bench, scenes, settings, "
+            "doctor",
+            argv[1]);
+>>>>>>> bench
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& help) {

@@ -29,6 +29,10 @@ struct Arguments {
     int seeds = 1;
     std::vector<int> sides_vox{64, 128, 256};  // of --speed
     bool reference = false, awake = false, speed = false;
+    // Of `bench`: suites separated by commas; files to compare.
+    std::string suites, compare, with;
+    std::vector<int> bench_sides_vox{128, 256, 512};
+    int repeats = 5;
 };
 
 // Nothing where help was asked for and printed. Throws Error naming the argument, the reason and what is

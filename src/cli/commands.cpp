@@ -8,6 +8,7 @@
 #include "app/app.h"
 #include "app/stats.h"
 #include "cli/arguments.h"
+#include "cli/bench_command.h"
 #include "cli/doctor.h"
 #include "cli/light_command.h"
 #include "cli/progress.h"
@@ -161,6 +162,7 @@ int run_command_line(int argc, char** argv) {
     if (arguments->command == "simulate") return run_simulate(*arguments);
     if (arguments->command == "water") return run_water_command(*arguments);
     if (arguments->command == "light") return run_light_command(*arguments);
+    if (arguments->command == "bench") return run_bench_command(*arguments);
     if (arguments->command == "scenes") return run_scenes();
     if (arguments->command == "settings") return run_settings();
     return run_doctor();

@@ -30,4 +30,16 @@ void Progress::show(std::uint64_t done) {
                std::string(width - filled, '.'), done, total_, left_s);
 }
 
+StepProgress::StepProgress() : terminal_(isatty(STDERR_FILENO) == 1) {}
+
+StepProgress::~StepProgress() {
+    if (terminal_) fmt::print(stderr, "\r\033[K");
+}
+
+void StepProgress::show(const std::string& what) {
+    if (!terminal_) return;
+    const double elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    fmt::print(stderr, "\r\033[K{:.0f} s: {}", elapsed_s, what);
+}
+
 }  // namespace tarn

@@ -25,4 +25,18 @@ class Progress {
     Clock::time_point next_ = Clock::now() + std::chrono::milliseconds(300);
 };
 
+// For work of unknown length: the time so far and what is being done, on a line of stderr that is a terminal.
+class StepProgress {
+  public:
+    StepProgress();
+    ~StepProgress();
+    StepProgress(const StepProgress&) = delete;
+    StepProgress& operator=(const StepProgress&) = delete;
+    void show(const std::string& what);
+
+  private:
+    bool terminal_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
 }  // namespace tarn

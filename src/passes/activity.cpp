@@ -70,6 +70,11 @@ void ActivityPass::wake_all(std::uint32_t tick) {
     lists_[next_].upload(list);
 }
 
+void ActivityPass::sleep_all(std::uint32_t tick) {
+    changed_tick_.upload(std::vector<std::uint32_t>(volume(size_bricks_), tick - SLEEP_TICKS - 2));
+    lists_[next_].upload(empty_list);
+}
+
 void ActivityPass::touch(const std::vector<std::uint32_t>& bricks, std::uint32_t tick) {
     if (bricks.empty()) return;
     gl::Buffer touched("touched bricks", bricks.size() * word);

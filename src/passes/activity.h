@@ -33,6 +33,8 @@ class ActivityPass {
     // As if every brick, or those listed (x fastest, then y, then z), had changed in the tick before `tick`.
     void wake_all(std::uint32_t tick);
     void touch(const std::vector<std::uint32_t>& bricks, std::uint32_t tick);
+    // As if no brick had changed in the ticks before `tick` for which bricks stay awake.
+    void sleep_all(std::uint32_t tick);
 
     // Finds what runs in `tick`; at most grids_max grids.
     void begin_tick(std::uint32_t tick, std::span<const BlockGrid> grids);

@@ -181,6 +181,30 @@ TEST_F(SleepTest, edits_far_apart_wake_only_what_is_near) {
 }
 
 // A spring fills a basin to its mouth, all falls asleep, and the basin is emptied again.
+TEST_F(SleepTest, what_is_put_to_sleep_lies_until_it_is_woken) {
+    Scene scene;
+    scene.cells = Cells({32, 32, 32});
+    for (int y = 8; y < 24; ++y) scene.cells.at({16, y, 16}) = MATERIAL_WATER_FULL;  // hangs in the air
+    for (const WaterTier tier : tiers) {
+        gl::Timers timers;
+        Simulation simulation(scene, timers);
+        EXPECT_EQ(simulation.active_bricks(), 8u * 8 * 8) << name_of(tier);
+        simulation.put_to_sleep();
+        EXPECT_EQ(simulation.active_bricks(), 0u) << name_of(tier);
+        simulation.step(2 * SLEEP_TICKS, settings_of(tier));
+        EXPECT_EQ(simulation.read_cells(), scene.cells) << name_of(tier);
+        simulation.write({{{16, 8, 16}, MATERIAL_WATER_FULL, MATERIAL_STONE}});
+        simulation.step(2, settings_of(tier));
+        EXPECT_NE(simulation.active_bricks(), 0u) << name_of(tier);
+        EXPECT_EQ(simulation.read_cell({16, 8, 16}), MATERIAL_STONE) << name_of(tier);
+        simulation.put_to_sleep();
+        EXPECT_EQ(simulation.active_bricks(), 0u) << name_of(tier);
+        simulation.set_tick(simulation.tick());  // wakes all
+        simulation.step(8, settings_of(tier));
+        EXPECT_EQ(simulation.read_cell({16, 23, 16}), MATERIAL_AIR) << name_of(tier);  // the column fell
+    }
+}
+
 TEST_F(SleepTest, a_spring_in_sleeping_water_runs_on) {
     for (const WaterTier tier : tiers) {
         SCOPED_TRACE(name_of(tier));

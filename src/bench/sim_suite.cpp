@@ -1,0 +1,107 @@
+// Ticks of the terrain's world: all of it awake, a tenth of it, none; and a copy of its bytes as the floor.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <thread>
+
+#include "app/stopwatch.h"
+#include "bench/bench_suites.h"
+#include "passes/bricks.h"
+#include "shared/bindings.h"
+
+namespace tarn {
+
+namespace {
+
+constexpr int ticks_a_sample = 2;
+constexpr int ticks_a_sample_asleep = 32;
+double tick_ms(BenchWorld& world, int ticks) {
+    const Settings& settings = world.scene.settings;
+    glFinish();
+    const Stopwatch watch;
+    for (int i = 0; i < ticks; ++i) world.simulation.step(1, settings);
+    glFinish();
+    const double ms = watch.ms() / ticks;
+    world.timers.end_frame();
+    world.timers.finish();
+    return ms;
+}
+
+// One cell of every brick in a tenth of the world, from x = 0, becomes another solid: it moves nothing and
+// wakes the brick.
+void wake_a_tenth(BenchWorld& world) {
+    const glm::ivec3 bricks = bricks_of(world.simulation.size_vox());
+    const int end_x = std::max(1, bricks.x / 10);
+    const Cells cells = world.simulation.read_cells();
+    std::vector<CellChange> changes;
+    for (int z = 0; z < bricks.z; ++z)
+        for (int y = 0; y < bricks.y; ++y)
+            for (int x = 0; x < end_x; ++x) {
+                const glm::ivec3 cell = glm::ivec3(x, y, z) * BRICK_SIDE;
+                const std::uint8_t before = cells.at(cell);
+                changes.push_back({cell, before, before == MATERIAL_STONE ? MATERIAL_DIRT : MATERIAL_STONE});
+            }
+    world.simulation.write(changes);
+    world.timers.end_frame();
+    world.timers.finish();
+}
+
+// By every thread, a part each.
+double copy_ms(const std::vector<std::uint8_t>& from, std::vector<std::uint8_t>& to, int threads) {
+    const std::size_t part = from.size() / static_cast<std::size_t>(threads);
+    const Stopwatch watch;
+    std::vector<std::thread> workers;
+    for (int i = 0; i < threads; ++i) {
+        const std::size_t first = part * static_cast<std::size_t>(i);
+        const std::size_t count = i + 1 == threads ? from.size() - first : part;
+        workers.emplace_back(
+            [&, first, count] { std::memcpy(to.data() + first, from.data() + first, count); });
+    }
+    for (std::thread& worker : workers) worker.join();
+    return watch.ms();
+}
+
+void measure_world(int side_vox, const BenchOptions& options, BenchResult& result) {
+    const std::string scene = bench_scene_name(side_vox);
+    options.progress(fmt::format("sim: building {}", scene));
+    const auto world = make_bench_world(side_vox);
+    std::vector<std::uint8_t> copy(world->scene.cells.count());
+    std::vector<Contestant> contestants;
+    const auto add = [&](const char* who, std::function<std::vector<Sample>()> run) {
+        contestants.push_back({.suite = "sim", .scene = scene, .who = who, .run = std::move(run)});
+    };
+    const auto ticks = [&](int count) {
+        const double ms = tick_ms(*world, count);
+        return std::vector<Sample>{
+            {"tick", "ms", ms},
+            {"active bricks", "bricks", static_cast<double>(world->simulation.active_bricks())}};
+    };
+    add("awake", [&] {
+        world->simulation.set_tick(world->simulation.tick());  // wakes all
+        return ticks(ticks_a_sample);
+    });
+    add("tenth", [&] {
+        world->simulation.put_to_sleep();
+        wake_a_tenth(*world);
+        return ticks(ticks_a_sample);
+    });
+    add("asleep", [&] {
+        world->simulation.put_to_sleep();
+        return ticks(ticks_a_sample_asleep);
+    });
+    add("copy", [&] {
+        const double ms = copy_ms(world->scene.cells.bytes(), copy, options.threads);
+        return std::vector<Sample>{{"cells", "ms", ms}};
+    });
+    run_rounds(contestants, {.rounds = options.rounds, .budget_ms = 8000}, result.figures, options.progress);
+}
+
+}  // namespace
+
+void run_sim_suite(const BenchOptions& options, BenchResult& result) {
+    result.notes.emplace_back("sim: a multithreaded CPU step is left out: there is none yet");
+    for (const int side : options.sides_vox) measure_world(side, options, result);
+}
+
+}  // namespace tarn
