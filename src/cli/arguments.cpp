@@ -239,20 +239,15 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
 
     const auto named = [&](const CLI::App* command) { return command->check_name(argv[1]); };
     if (argc > 1 && *argv[1] != '-' && app.get_subcommands(named).empty())
-<<<<<<< HEAD
-        fail("{}: no such command; allowed: play, render, simulate, water, light, scenes, settings, doctor",
-             argv[1]);
+        fail(
+            "{}: no such command; allowed: play, render, simulate, water, light, bench, scenes, settings, "
+            "doctor",
+            argv[1]);
     for (CLI::App* command : app.get_subcommands({}))
         for (CLI::Option* option : command->get_options())
             if (option->get_expected_min() > 0)
                 option->check(CLI::Validator(
                     [](const std::string& value) { return value.empty() ? std::string("empty") : ""; }, ""));
-=======
-        fail(
-            "{}: no such command; allowed: play, render, simulate, water, light, bench, scenes, settings, "
-            "doctor",
-            argv[1]);
->>>>>>> bench
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& help) {
