@@ -48,15 +48,15 @@ void expect_sound(const Scene& scene, const std::string& what) {
 }
 
 TEST_F(ExtremesWaterTest, IndicesAndRoughnesses) {
-    for (const float index : {0.75f, 1.f, 1.0001f, 3.f})
-        for (const float roughness : {0.f, 1e-3f, 0.04f, 1.f}) {
-            Scene scene = everything();
-            scene.settings.water_ior = index;
-            for (const auto id : {MATERIAL_WATER, MATERIAL_GLASS, MATERIAL_METAL, MATERIAL_STONE})
-                scene.materials[id].roughness = roughness;
-            scene.materials[MATERIAL_GLASS].ior = index;
-            expect_sound(scene, fmt::format("index {} roughness {}", index, roughness));
-        }
+    for (const auto& [index, roughness] :
+         {std::pair(0.75f, 0.f), {0.75f, 1.f}, {1.f, 1e-3f}, {1.0001f, 0.04f}, {3.f, 0.f}, {3.f, 1.f}}) {
+        Scene scene = everything();
+        scene.settings.water_ior = index;
+        for (const auto id : {MATERIAL_WATER, MATERIAL_GLASS, MATERIAL_METAL, MATERIAL_STONE})
+            scene.materials[id].roughness = roughness;
+        scene.materials[MATERIAL_GLASS].ior = index;
+        expect_sound(scene, fmt::format("index {} roughness {}", index, roughness));
+    }
 }
 
 TEST_F(ExtremesWaterTest, RadianceAbsorptionAndTheSunsHeight) {
@@ -75,10 +75,8 @@ TEST_F(ExtremesWaterTest, RadianceAbsorptionAndTheSunsHeight) {
     for (const float elevation_deg : {-90.f, -1e-3f, 0.f, 1e-3f, 90.f}) {
         Scene scene = everything();
         scene.settings.sun_elevation_deg = elevation_deg;
-        for (const float radius_deg : {0.f, 0.27f, 90.f}) {
-            scene.settings.sun_angular_radius_deg = radius_deg;
-            expect_sound(scene, fmt::format("elevation {} radius {}", elevation_deg, radius_deg));
-        }
+        scene.settings.sun_angular_radius_deg = elevation_deg == 0 ? 90 : elevation_deg > 0 ? 0 : 0.27f;
+        expect_sound(scene, fmt::format("elevation {}", elevation_deg));
     }
 }
 
