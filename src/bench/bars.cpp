@@ -76,7 +76,7 @@ std::vector<Bar> bars() {
 
 }  // namespace
 
-std::vector<BarRow> bar_rows(std::span<const Figure> figures) {
+std::vector<BarRow> bar_rows(std::span<const BenchFigure> figures) {
     std::vector<BarRow> rows;
     for (const Bar& bar : bars()) {
         const bool of_rays = bar.over.suite == "rays" && bar.over.scene == bar.under.scene;
@@ -86,11 +86,11 @@ std::vector<BarRow> bar_rows(std::span<const Figure> figures) {
             .at_least = bar.at_least,
             .reach_for = bar.reach_for,
             .more_is_better = bar.more_is_better});
-        const Figure* over = find_figure(figures, bar.over);
+        const BenchFigure* over = find_figure(figures, bar.over);
         if (over == nullptr) continue;
         if (bar.under.suite.empty()) {
             row.value = statistics_of(over->samples).median;
-        } else if (const Figure* under = find_figure(figures, bar.under)) {
+        } else if (const BenchFigure* under = find_figure(figures, bar.under)) {
             row.value = ratio_of(*over, *under);
         }
     }

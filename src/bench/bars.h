@@ -19,7 +19,7 @@ struct BarRow {
     bool reached() const { return value && (more_is_better ? *value >= reach_for : *value <= reach_for); }
 };
 
-std::vector<BarRow> bar_rows(std::span<const Figure> figures);
+std::vector<BarRow> bar_rows(std::span<const BenchFigure> figures);
 std::string bars_text(std::span<const BarRow> rows);
 
 }  // namespace tarn

@@ -60,11 +60,11 @@ std::vector<std::pair<std::string, std::string>> about_machine() {
             {"compiler", __VERSION__}};
 }
 
-std::string figures_text(std::span<const Figure> figures) {
+std::string figures_text(std::span<const BenchFigure> figures) {
     std::string text =
         fmt::format("{:<6} {:<12} {:<30} {:<10} {:>9} {:>11} {:>11} {:>11} {:>7} {:>4}\n", "suite", "scene",
                     "what", "who", "unit", "median", "min", "max", "spread", "n");
-    for (const Figure& f : figures) {
+    for (const BenchFigure& f : figures) {
         const Statistics s = statistics_of(f.samples);
         text +=
             fmt::format("{:<6} {:<12} {:<30} {:<10} {:>9} {:>11.5g} {:>11.5g} {:>11.5g} {:>6.1f}% {:>4}\n",
@@ -74,9 +74,9 @@ std::string figures_text(std::span<const Figure> figures) {
     return text;
 }
 
-std::string bench_csv(std::span<const Figure> figures) {
+std::string bench_csv(std::span<const BenchFigure> figures) {
     std::string text = "suite,scene,what,who,unit,median,min,max,spread,samples\n";
-    for (const Figure& f : figures) {
+    for (const BenchFigure& f : figures) {
         const Statistics s = statistics_of(f.samples);
         text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", f.key.suite, f.key.scene, f.key.what,
                             f.key.who, f.unit, s.median, s.min, s.max, s.spread, f.samples.size());
@@ -100,7 +100,7 @@ std::string bench_json(const BenchReport& report) {
                                     {"reach_for", row.reach_for},
                                     {"more_is_better", row.more_is_better}});
     json["figures"] = ordered_json::array();
-    for (const Figure& f : report.figures) {
+    for (const BenchFigure& f : report.figures) {
         const Statistics s = statistics_of(f.samples);
         json["figures"].push_back({{"suite", f.key.suite},
                                    {"scene", f.key.scene},
@@ -116,8 +116,8 @@ std::string bench_json(const BenchReport& report) {
     return json.dump(1) + "\n";
 }
 
-std::vector<Figure> read_bench_json(const std::string& text, const std::string& origin) {
-    std::vector<Figure> figures;
+std::vector<BenchFigure> read_bench_json(const std::string& text, const std::string& origin) {
+    std::vector<BenchFigure> figures;
     try {
         const auto json = nlohmann::json::parse(text);
         if (json.at("tarn_bench") != format_version)
@@ -135,12 +135,12 @@ std::vector<Figure> read_bench_json(const std::string& text, const std::string& 
     return figures;
 }
 
-std::string compare_text(std::span<const Figure> before, std::span<const Figure> now) {
+std::string compare_text(std::span<const BenchFigure> before, std::span<const BenchFigure> now) {
     std::string text = fmt::format("{:<6} {:<12} {:<30} {:<10} {:>9} {:>11} {:>11} {:>8}  {}\n", "suite",
                                    "scene", "what", "who", "unit", "old", "new", "new/old", "samples apart");
     std::size_t shared = 0;
-    for (const Figure& f : now) {
-        const Figure* const old = find_figure(before, f.key);
+    for (const BenchFigure& f : now) {
+        const BenchFigure* const old = find_figure(before, f.key);
         if (old == nullptr || old->unit != f.unit) continue;
         ++shared;
         const Statistics a = statistics_of(old->samples);

@@ -18,7 +18,7 @@ struct BenchOptions {
 };
 
 struct BenchResult {
-    std::vector<Figure> figures;
+    std::vector<BenchFigure> figures;
     std::vector<std::string> notes;     // what was left out and why
     std::vector<std::string> failures;  // comparisons that mean nothing
 };

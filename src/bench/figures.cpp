@@ -40,13 +40,13 @@ bool more_is_better(const std::string& unit) {
     return unit.ends_with("/s");
 }
 
-const Figure* find_figure(std::span<const Figure> figures, const FigureKey& key) {
+const BenchFigure* find_figure(std::span<const BenchFigure> figures, const FigureKey& key) {
     const auto found =
-        std::find_if(figures.begin(), figures.end(), [&](const Figure& f) { return f.key == key; });
+        std::find_if(figures.begin(), figures.end(), [&](const BenchFigure& f) { return f.key == key; });
     return found == figures.end() ? nullptr : &*found;
 }
 
-double ratio_of(const Figure& a, const Figure& b) {
+double ratio_of(const BenchFigure& a, const BenchFigure& b) {
     const std::size_t rounds = std::min(a.samples.size(), b.samples.size());
     std::vector<double> ratios;
     for (std::size_t i = 0; i < rounds; ++i) ratios.push_back(a.samples[i] / b.samples[i]);
@@ -63,9 +63,10 @@ double mean_ms_of_runs(double least_ms, const std::function<double()>& run_ms) {
     return sum_ms / runs;
 }
 
-void add_sample(std::vector<Figure>& figures, const FigureKey& key, const std::string& unit, double value) {
+void add_sample(std::vector<BenchFigure>& figures, const FigureKey& key, const std::string& unit,
+                double value) {
     const auto found =
-        std::find_if(figures.begin(), figures.end(), [&](const Figure& f) { return f.key == key; });
+        std::find_if(figures.begin(), figures.end(), [&](const BenchFigure& f) { return f.key == key; });
     if (found != figures.end())
         found->samples.push_back(value);
     else
@@ -73,7 +74,7 @@ void add_sample(std::vector<Figure>& figures, const FigureKey& key, const std::s
 }
 
 void run_rounds(std::vector<Contestant>& contestants, const RoundOptions& options,
-                std::vector<Figure>& figures, const std::function<void(const std::string&)>& progress) {
+                std::vector<BenchFigure>& figures, const std::function<void(const std::string&)>& progress) {
     const auto show = [&](const Contestant& c) {
         progress(fmt::format("{} {} {}", c.suite, c.scene, c.who));
     };

@@ -15,7 +15,7 @@ struct FigureKey {
     bool operator==(const FigureKey&) const = default;
 };
 
-struct Figure {
+struct BenchFigure {
     FigureKey key;
     std::string unit;
     std::vector<double> samples;  // in the order of the rounds, never empty
@@ -30,10 +30,10 @@ Statistics statistics_of(std::span<const double> samples);
 // True for units that count work done in a time; false for times, bytes and counts.
 bool more_is_better(const std::string& unit);
 
-const Figure* find_figure(std::span<const Figure> figures, const FigureKey& key);
+const BenchFigure* find_figure(std::span<const BenchFigure> figures, const FigureKey& key);
 
 // a over b: the median over the rounds that both took part in of their ratio in that round.
-double ratio_of(const Figure& a, const Figure& b);
+double ratio_of(const BenchFigure& a, const BenchFigure& b);
 
 // The mean of what `run_ms` returns, over as many runs as take `least_ms` by that count: on a busy machine
 // short runs slip between the turns of other programs, and would look better than what they are compared
@@ -59,9 +59,10 @@ struct RoundOptions {
 // Runs all in turn, round after round, and adds their figures. The first run of each is not counted: it
 // compiles. `progress` is called with the name of who runs next.
 void run_rounds(std::vector<Contestant>& contestants, const RoundOptions& options,
-                std::vector<Figure>& figures, const std::function<void(const std::string&)>& progress);
+                std::vector<BenchFigure>& figures, const std::function<void(const std::string&)>& progress);
 
 // Adds a figure of one sample, or a sample to a figure that is there.
-void add_sample(std::vector<Figure>& figures, const FigureKey& key, const std::string& unit, double value);
+void add_sample(std::vector<BenchFigure>& figures, const FigureKey& key, const std::string& unit,
+                double value);
 
 }  // namespace tarn

@@ -31,7 +31,7 @@ constexpr Suite suites[] = {{"rays", run_rays_suite},
                             {"edit", run_edit_suite},
                             {"start", run_start_suite}};
 
-std::vector<Figure> read_figures(const std::string& path) {
+std::vector<BenchFigure> read_figures(const std::string& path) {
     return read_bench_json(read_text_file(path), path);
 }
 
@@ -82,7 +82,7 @@ const std::vector<std::string>& bench_suites() {
 
 int run_bench_command(const Arguments& arguments) {
     const auto names = names_of("--suite", arguments.suites, bench_suites());
-    std::vector<Figure> before;
+    std::vector<BenchFigure> before;
     if (!arguments.compare.empty()) before = read_figures(arguments.compare);
     if (!arguments.with.empty()) {
         fmt::print("{}", compare_text(before, read_figures(arguments.with)));

@@ -10,8 +10,8 @@
 namespace tarn {
 namespace {
 
-const std::vector<Figure> figures{{{"rays", "terrain-128", "primary", "tarn"}, "Mrays/s", {4, 6, 5}},
-                                  {{"sim", "terrain-128", "tick", "awake"}, "ms", {0.1, 0.3}}};
+const std::vector<BenchFigure> figures{{{"rays", "terrain-128", "primary", "tarn"}, "Mrays/s", {4, 6, 5}},
+                                       {{"sim", "terrain-128", "tick", "awake"}, "ms", {0.1, 0.3}}};
 
 std::string line_with(const std::string& text, const std::string& part) {
     const std::size_t at = text.find(part);
@@ -40,7 +40,7 @@ TEST(BenchReport, JsonHoldsEverySampleAndReadsBack) {
     EXPECT_EQ(json["settings"]["quality"], "balanced");
     EXPECT_EQ(json["notes"][0], "a note");
     EXPECT_EQ(json["figures"][0]["median"], 5);
-    const std::vector<Figure> back = read_bench_json(text, "back");
+    const std::vector<BenchFigure> back = read_bench_json(text, "back");
     ASSERT_EQ(back.size(), figures.size());
     for (std::size_t i = 0; i < back.size(); ++i) {
         EXPECT_EQ(back[i].key, figures[i].key);
@@ -57,23 +57,24 @@ TEST(BenchReport, CsvHasOneRowAFigure) {
 }
 
 TEST(BenchReport, ComparesWhatBothRunsHold) {
-    const std::vector<Figure> now{{{"rays", "terrain-128", "primary", "tarn"}, "Mrays/s", {10, 10, 11}},
-                                  {{"sim", "terrain-128", "tick", "awake"}, "ms", {0.25, 0.35}},
-                                  {{"sim", "terrain-256", "tick", "awake"}, "ms", {1}}};
+    const std::vector<BenchFigure> now{{{"rays", "terrain-128", "primary", "tarn"}, "Mrays/s", {10, 10, 11}},
+                                       {{"sim", "terrain-128", "tick", "awake"}, "ms", {0.25, 0.35}},
+                                       {{"sim", "terrain-256", "tick", "awake"}, "ms", {1}}};
     const std::string text = compare_text(figures, now);
     EXPECT_TRUE(line_with(text, "primary").ends_with("2.000  better")) << text;
     EXPECT_TRUE(line_with(text, "tick").ends_with("1.500  ")) << text;  // the samples overlap
     EXPECT_NE(text.find("2 figures in both, 0 only in the old, 1 only in the new run"), std::string::npos)
         << text;
-    const std::vector<Figure> slow{{{"sim", "terrain-128", "tick", "awake"}, "ms", {0.4, 0.4}}};
+    const std::vector<BenchFigure> slow{{{"sim", "terrain-128", "tick", "awake"}, "ms", {0.4, 0.4}}};
     EXPECT_TRUE(line_with(compare_text(figures, slow), "tick").ends_with("2.000  worse"));
     EXPECT_EQ(compare_text(figures, {}), "no figure is in both runs\n");
 }
 
 TEST(BenchReport, ComparesTheBarsOfBothRuns) {
     const auto run = [](double tarn, double embree) {
-        return std::vector<Figure>{{{"rays", "terrain-128", "primary", "tarn"}, "Mrays/s", {tarn}},
-                                   {{"rays", "terrain-128", "primary", "embree-8"}, "Mrays/s", {embree}}};
+        return std::vector<BenchFigure>{
+            {{"rays", "terrain-128", "primary", "tarn"}, "Mrays/s", {tarn}},
+            {{"rays", "terrain-128", "primary", "embree-8"}, "Mrays/s", {embree}}};
     };
     // Half the speed of both: a busy machine, no loss.
     const std::string busy = line_with(compare_text(run(6, 12), run(3, 6)), "Embree's packets");

@@ -29,11 +29,11 @@ TEST(BenchFigures, StatisticsOfKnownSamples) {
 }
 
 TEST(BenchFigures, RatiosAreTakenRoundByRound) {
-    const Figure a{{}, "ms", {2, 2, 6, 6, 6}};
-    const Figure b{{}, "ms", {1, 1, 3, 3, 3}};
+    const BenchFigure a{{}, "ms", {2, 2, 6, 6, 6}};
+    const BenchFigure b{{}, "ms", {1, 1, 3, 3, 3}};
     EXPECT_EQ(ratio_of(a, b), 2);
     // The machine became three times slower when b had dropped out: the ratio of medians would be 6.
-    const Figure short_b{{}, "ms", {1, 1}};
+    const BenchFigure short_b{{}, "ms", {1, 1}};
     EXPECT_EQ(ratio_of(a, short_b), 2);
     EXPECT_EQ(ratio_of(short_b, a), 0.5);
 }
@@ -60,7 +60,7 @@ TEST(BenchFigures, ContestantsTakeTurnsAndTheirFirstRunsDoNotCount) {
                  const auto nth = static_cast<double>(order.size());
                  return std::vector<Sample>{{"nth", "runs", nth}, {"twice", "runs", 2 * nth}};
              }});
-    std::vector<Figure> figures;
+    std::vector<BenchFigure> figures;
     int told = 0;
     run_rounds(contestants, {.rounds = 3, .budget_ms = 1e9}, figures, [&](const std::string& text) {
         ++told;
@@ -82,7 +82,7 @@ TEST(BenchFigures, WhoHasUsedUpItsTimeTakesPartNoMore) {
                                    order += who;
                                    return std::vector<Sample>{{"n", "runs", 1}};
                                }});
-    std::vector<Figure> figures;
+    std::vector<BenchFigure> figures;
     run_rounds(contestants, {.rounds = 9, .budget_ms = 0}, figures, [](const std::string&) {});
     EXPECT_EQ(order, "abab");  // one that does not count, one that does
     EXPECT_EQ(figures.at(0).samples.size(), 1u);
@@ -95,7 +95,7 @@ const BarRow* row_with(const std::vector<BarRow>& rows, const std::string& text)
 }
 
 TEST(BenchBars, RatiosStandBesideTheirBars) {
-    const std::vector<Figure> figures{
+    const std::vector<BenchFigure> figures{
         {{"rays", "terrain-128", "primary", "tarn"}, "Mrays/s", {6, 6, 6}},
         {{"rays", "terrain-128", "primary", "embree-8"}, "Mrays/s", {10, 10, 10}},
         {{"rays", "terrain-512", "primary", "tarn"}, "Mrays/s", {3, 3, 3}},
