@@ -65,7 +65,7 @@ struct Tree {
     void update(const Simulation& simulation) {
         materials.bind_uniform(BINDING_MATERIALS);
         pass.record({.cells = simulation.cells(),
-                     .brick_changed = simulation.brick_changed(),
+                     .changes = simulation.changes(),
                      .version = static_cast<std::uint32_t>(simulation.version())},
                     timers);
     }
