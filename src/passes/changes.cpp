@@ -15,11 +15,11 @@ constexpr std::uint64_t changes_apart_max = std::uint64_t{1} << 31;
 
 }  // namespace
 
-ChangeLog::ChangeLog(glm::ivec3 size_bricks)
+ChangeLog::ChangeLog(glm::ivec3 size_bricks, std::uint32_t written)
     : bricks_(static_cast<std::uint32_t>(size_bricks.x * size_bricks.y * size_bricks.z)),
       capacity_(std::bit_ceil(bricks_)),
       entries_("change log", (log_header_words + capacity_) * word) {
-    entries_.upload(std::array<std::uint32_t, log_header_words>{0, capacity_ - 1});
+    entries_.upload(std::array<std::uint32_t, log_header_words>{written, capacity_ - 1});
 }
 
 void ChangeLog::add_all() {

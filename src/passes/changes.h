@@ -15,7 +15,8 @@ namespace tarn {
 
 class ChangeLog {
   public:
-    explicit ChangeLog(glm::ivec3 size_bricks);
+    // Empty; `written` entries, modulo 2^32, were written before.
+    explicit ChangeLog(glm::ivec3 size_bricks, std::uint32_t written = 0);
 
     void bind() const { entries_.bind_storage(STORAGE_CHANGES); }
     // As if every brick had changed. Waits for the GPU.
