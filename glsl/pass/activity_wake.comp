@@ -8,7 +8,7 @@ layout(std430, binding = STORAGE_ACTIVE) readonly buffer Active {
     WorkHeader awake;
     uint awake_bricks[];
 };
-// 1 for a block on its list; those of the second grid follow those of the first.
+// `mark` for a block on its list; those of the second grid follow those of the first.
 layout(std430, binding = STORAGE_BLOCK_MARKS) coherent buffer BlockMarks { uint block_marks[]; };
 layout(std430, binding = STORAGE_BLOCKS) buffer Blocks {
     WorkHeader blocks;
@@ -20,6 +20,7 @@ layout(std430, binding = STORAGE_BLOCKS_WIDE) buffer WideBlocks {
 };
 
 uniform ivec3 size_vox;
+uniform uint mark;  // another in every tick, so that nothing needs clearing
 uniform int grids;
 uniform ivec3 block_vox[2];
 uniform ivec3 offset_vox[2];
@@ -28,10 +29,10 @@ uniform ivec3 count_blocks[2];
 // Loops that run at most once: llvmpipe runs the body of a branch, atomics and all, for lanes that do not take it.
 void mark_block(int grid, ivec3 block) {
     uint id = uint(block.x + count_blocks[grid].x * (block.y + count_blocks[grid].y * block.z));
-    uint mark = id;
-    if (grid == 1) mark += uint(count_blocks[0].x * count_blocks[0].y * count_blocks[0].z);
-    for (bool unmarked = block_marks[mark] == 0u; unmarked; unmarked = false) {
-        bool first = atomicExchange(block_marks[mark], 1u) == 0u;
+    uint at = id;
+    if (grid == 1) at += uint(count_blocks[0].x * count_blocks[0].y * count_blocks[0].z);
+    for (bool unmarked = block_marks[at] != mark; unmarked; unmarked = false) {
+        bool first = atomicExchange(block_marks[at], mark) != mark;
         for (bool tall = first && grid == 0; tall; tall = false) {
             uint slot = atomicAdd(blocks.count, 1u);
             block_ids[slot] = id;

@@ -177,7 +177,7 @@ void Renderer::Parts::upload_frame(const Simulation& simulation, const Settings&
 void Renderer::Parts::update_emitters(const Simulation& simulation) {
     built(emitters, bricks_of(simulation.size_vox()))
         .record({.cells = simulation.cells(),
-                 .brick_changed = simulation.brick_changed(),
+                 .changes = simulation.changes(),
                  .version = static_cast<std::uint32_t>(simulation.version())},
                 timers);
 }

@@ -55,7 +55,8 @@ ActivityPass::ActivityPass(glm::ivec3 size_vox)
       touch_({.label = "touch", .compute = "pass/activity_touch.comp"}),
       changed_tick_("changed tick", volume(size_bricks_) * word),
       lists_{work_list("active bricks a", volume(size_bricks_)),
-             work_list("active bricks b", volume(size_bricks_))} {}
+             work_list("active bricks b", volume(size_bricks_))},
+      changes_(size_bricks_) {}
 
 void ActivityPass::wake_all(std::uint32_t tick) {
     const std::size_t bricks = volume(size_bricks_);
@@ -75,14 +76,15 @@ void ActivityPass::sleep_all(std::uint32_t tick) {
     lists_[next_].upload(empty_list);
 }
 
-void ActivityPass::touch(const std::vector<std::uint32_t>& bricks, std::uint32_t tick) {
+void ActivityPass::touch(const std::vector<std::uint32_t>& bricks, std::uint32_t tick, std::uint32_t version,
+                         const gl::Texture& brick_changed) {
     if (bricks.empty()) return;
     gl::Buffer touched("touched bricks", bricks.size() * word);
     touched.upload(bricks);
     touched.bind_storage(STORAGE_ACTIVE);
-    changed_tick_.bind_storage(STORAGE_CHANGED_TICK);
-    next().bind_storage(STORAGE_ACTIVE_NEXT);
-    touch_.set("tick", tick - 1);
+    bind(touch_, tick - 1);
+    brick_changed.bind_image(IMAGE_BRICK_CHANGED, GL_READ_WRITE);
+    touch_.set("version", version);
     touch_.set("count", static_cast<std::uint32_t>(bricks.size()));
     constexpr std::size_t row = 1024;
     const std::size_t groups = (bricks.size() + ACTIVE_PER_GROUP - 1) / ACTIVE_PER_GROUP;
@@ -114,7 +116,10 @@ void ActivityPass::begin_tick(std::uint32_t tick, std::span<const BlockGrid> gri
     next_ = 1 - next_;
     lists_[next_].upload(empty_list);
     for (std::size_t i = 0; i < grids.size(); ++i) blocks_[i].upload(empty_list);
-    block_marks_.clear();
+    if (++mark_ == 0) {
+        block_marks_.clear();
+        mark_ = 1;
+    }
 
     for (std::size_t i = 0; i < grids.size(); ++i) {
         const GridUniforms& names = grid_uniforms[i];
@@ -127,6 +132,7 @@ void ActivityPass::begin_tick(std::uint32_t tick, std::span<const BlockGrid> gri
     wake_.set("size_bricks", size_bricks_);
     wake_.set("grids", static_cast<int>(grids.size()));
     wake_.set("tick", tick);
+    wake_.set("mark", mark_);
     active.bind_storage(STORAGE_ACTIVE);
     next().bind_storage(STORAGE_ACTIVE_NEXT);
     changed_tick_.bind_storage(STORAGE_CHANGED_TICK);
@@ -139,6 +145,7 @@ void ActivityPass::bind(const gl::Program& program, std::uint32_t tick) const {
     program.set("tick", tick);
     changed_tick_.bind_storage(STORAGE_CHANGED_TICK);
     next().bind_storage(STORAGE_ACTIVE_NEXT);
+    changes_.bind();
 }
 
 void ActivityPass::run_blocks(const gl::Program& program, int grid, std::uint32_t tick) const {

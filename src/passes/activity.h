@@ -1,7 +1,7 @@
-// Which parts of the world are awake, kept on the GPU: a list of bricks with a change in the last SLEEP_TICKS
-// ticks, and for each tick the lists of blocks that touch one of them or a neighbour
-// (glsl/pass/activity_*.comp, glsl/lib/activity.glsl). Owns these buffers and its programs; knows no rule of
-// the water.
+// Which parts of the world are awake and which changed, kept on the GPU: a list of bricks with a change in
+// the last SLEEP_TICKS ticks, for each tick the lists of blocks that touch one of them or a neighbour, and
+// the log of changes (glsl/pass/activity_*.comp, glsl/lib/activity.glsl). Owns these buffers and its
+// programs; knows no rule of the water.
 #pragma once
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -11,6 +11,8 @@
 
 #include "gl/buffer.h"
 #include "gl/program.h"
+#include "gl/texture.h"
+#include "passes/changes.h"
 
 namespace tarn {
 
@@ -30,9 +32,15 @@ class ActivityPass {
     // All asleep; wake_all() before the first tick.
     explicit ActivityPass(glm::ivec3 size_vox);
 
-    // As if every brick, or those listed (x fastest, then y, then z), had changed in the tick before `tick`.
+    // As if every brick had changed in the tick before `tick`, for the sleep alone: nothing is logged.
     void wake_all(std::uint32_t tick);
-    void touch(const std::vector<std::uint32_t>& bricks, std::uint32_t tick);
+    // The bricks listed (x fastest, then y, then z) changed in the tick before `tick`: wakes, stamps in
+    // `brick_changed` (R32UI) and logs them.
+    void touch(const std::vector<std::uint32_t>& bricks, std::uint32_t tick, std::uint32_t version,
+               const gl::Texture& brick_changed);
+    // All cells are new.
+    void log_all() { changes_.add_all(); }
+    const ChangeLog& changes() const { return changes_; }
     // As if no brick had changed in the ticks before `tick` for which bricks stay awake.
     void sleep_all(std::uint32_t tick);
 
@@ -52,7 +60,6 @@ class ActivityPass {
 
   private:
     const gl::Buffer& next() const { return lists_[next_]; }
-    void reset_lists();
     void make_room_for(std::span<const BlockGrid> grids);
 
     glm::ivec3 size_vox_, size_bricks_;
@@ -61,6 +68,8 @@ class ActivityPass {
     gl::Buffer lists_[2];  // of active bricks: read in this tick, and made for the next
     int next_ = 0;
     gl::Buffer blocks_[grids_max], block_marks_;
+    std::uint32_t mark_ = 0;
+    ChangeLog changes_;
     std::size_t blocks_capacity_[grids_max]{};
 };
 
