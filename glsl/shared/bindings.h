@@ -30,6 +30,7 @@
 #define STORAGE_CHANGES 8
 // And of those that look at what changed
 #define STORAGE_NEW_CHANGES 9
+#define STORAGE_MATTER 10
 #define STORAGE_BRICK_FLIPS 1
 #define STORAGE_DISTANCE_BOXES 2
 #define STORAGE_STALE_TILES 1

@@ -17,9 +17,9 @@ namespace {
 
 using cpu::Cell;
 
-// 32 cells at once: two registers of SSE2, one of AVX2.
-using Bytes = std::uint8_t __attribute__((vector_size(32)));
-constexpr int lanes = sizeof(Bytes);
+// Cells at once in a register of SSE2 and of AVX2.
+using Bytes16 = std::uint8_t __attribute__((vector_size(16)));
+using Bytes32 = std::uint8_t __attribute__((vector_size(32)));
 constexpr int row_max = world_side_max_vox + 2 * WIDE_SIDE;  // cells, with what lies beyond the world
 
 // A row of blocks along x: `first` is the least cell of its first, which may lie outside.
@@ -45,8 +45,9 @@ struct Strip {
 #define TARN_INLINE inline __attribute__((always_inline))
 
 // What in a row moves, or'd to `moves` by cell of the world.
-template <bool with_sand>
+template <typename Bytes, bool with_sand>
 TARN_INLINE void find_matter(const std::uint8_t* row, int n, std::uint8_t* moves) {
+    constexpr int lanes = sizeof(Bytes);
     int x = 0;
     for (; x + lanes <= n; x += lanes) {
         Bytes cells;
@@ -274,7 +275,7 @@ TARN_INLINE void wide_block(const Strip& strip, int bx) {
 }
 
 // Runs the blocks of a strip in which something can move.
-template <bool tall>
+template <typename Bytes, bool tall>
 TARN_INLINE void run_strip(const Strip& strip) {
     constexpr int side = tall ? TALL_SIDE : WIDE_SIDE;
     alignas(32) std::array<std::uint8_t, row_max> moves;
@@ -282,8 +283,8 @@ TARN_INLINE void run_strip(const Strip& strip) {
     for (int z = 0; z < side; ++z)
         for (int y = tall ? 0 : 1; y < (tall ? TALL_HEIGHT : WIDE_HEIGHT); ++y)
             if (strip.holds_row(strip.first.y + y, strip.first.z + z))
-                find_matter<tall>(strip.row(strip.first.y + y, strip.first.z + z), strip.size_vox.x,
-                                  moves.data());
+                find_matter<Bytes, tall>(strip.row(strip.first.y + y, strip.first.z + z), strip.size_vox.x,
+                                         moves.data());
     for (int bx = 0; bx < strip.blocks; ++bx) {
         const int x = strip.first.x + bx * side;
         if (!any_in(moves.data(), std::max(x, 0), std::min(x + side, strip.size_vox.x))) continue;
@@ -295,17 +296,17 @@ TARN_INLINE void run_strip(const Strip& strip) {
 }
 
 void run_tall_plain(const Strip& strip) {
-    run_strip<true>(strip);
+    run_strip<Bytes16, true>(strip);
 }
 void run_wide_plain(const Strip& strip) {
-    run_strip<false>(strip);
+    run_strip<Bytes16, false>(strip);
 }
 #if defined(__x86_64__)
 __attribute__((target("avx2"))) void run_tall_avx2(const Strip& strip) {
-    run_strip<true>(strip);
+    run_strip<Bytes32, true>(strip);
 }
 __attribute__((target("avx2"))) void run_wide_avx2(const Strip& strip) {
-    run_strip<false>(strip);
+    run_strip<Bytes32, false>(strip);
 }
 #endif
 

@@ -8,13 +8,15 @@
 #include "passes/bricks.h"
 #include "shared/bindings.h"
 #include "shared/water.h"
+#include "world/schedule.h"
 
 namespace tarn {
 
 namespace {
 
 constexpr std::size_t word = sizeof(std::uint32_t);
-constexpr std::size_t header_words = 4;  // WorkHeader of glsl/lib/work_list.glsl
+constexpr std::size_t header_words = 4;        // WorkHeader of glsl/lib/work_list.glsl
+constexpr std::size_t groups_per_row = 32768;  // WORK_GROUPS_PER_ROW there
 struct GridUniforms {
     const char *block, *offset, *count;
 };
@@ -25,6 +27,12 @@ constexpr std::array<std::uint32_t, header_words> empty_list{0, 0, 1, 0};
 
 std::size_t volume(glm::ivec3 size) {
     return std::size_t{1} * size.x * size.y * size.z;
+}
+
+// A word for each 32 bricks along x (lib/matter.glsl).
+constexpr int bricks_per_word = 32;
+glm::ivec3 words_of(glm::ivec3 size_bricks) {
+    return {(size_bricks.x + bricks_per_word - 1) / bricks_per_word, size_bricks.y, size_bricks.z};
 }
 
 gl::Buffer work_list(const char* label, std::size_t items) {
@@ -52,28 +60,48 @@ ActivityPass::ActivityPass(glm::ivec3 size_vox)
     : size_vox_(size_vox),
       size_bricks_(bricks_of(size_vox)),
       wake_({.label = "wake", .compute = "pass/activity_wake.comp"}),
+      all_({.label = "all awake", .compute = "pass/activity_all.comp"}),
       touch_({.label = "touch", .compute = "pass/activity_touch.comp"}),
       changed_tick_("changed tick", volume(size_bricks_) * word),
       lists_{work_list("active bricks a", volume(size_bricks_)),
              work_list("active bricks b", volume(size_bricks_))},
-      changes_(size_bricks_) {}
+      changes_(size_bricks_),
+      matter_("matter", 2 * word * volume(words_of(size_bricks_))) {}
 
 void ActivityPass::wake_all(std::uint32_t tick) {
     const std::size_t bricks = volume(size_bricks_);
     changed_tick_.upload(std::vector<std::uint32_t>(bricks, tick - 1));
     const auto count = static_cast<std::uint32_t>(bricks);
     const std::uint32_t groups = (count + ACTIVE_PER_GROUP - 1) / ACTIVE_PER_GROUP;
-    constexpr std::uint32_t groups_per_row = 32768;  // WORK_GROUPS_PER_ROW
-    std::vector<std::uint32_t> list{std::min(groups, groups_per_row),
-                                    (groups + groups_per_row - 1) / groups_per_row, 1, count};
+    constexpr auto row = static_cast<std::uint32_t>(groups_per_row);
+    std::vector<std::uint32_t> list{std::min(groups, row), (groups + row - 1) / row, 1, count};
     list.resize(header_words + bricks);
     std::iota(list.begin() + header_words, list.end(), 0u);
     lists_[next_].upload(list);
+    woken_tick_ = tick;
+}
+
+void ActivityPass::always_look_at(const std::vector<Box>& boxes_vox) {
+    const glm::ivec3 words = words_of(size_bricks_);
+    std::vector<glm::uvec2> bits(volume(words));
+    matter_.download(std::span(bits));
+    for (const Box& box_vox : boxes_vox) {
+        const Box box = clipped(box_vox, size_vox_);
+        if (box.volume() == 0) continue;
+        const glm::ivec3 high = (box.max_vox - 1) / BRICK_SIDE;
+        for (int z = box.min_vox.z / BRICK_SIDE; z <= high.z; ++z)
+            for (int y = box.min_vox.y / BRICK_SIDE; y <= high.y; ++y)
+                for (int x = box.min_vox.x / BRICK_SIDE; x <= high.x; ++x)
+                    bits[x / bricks_per_word + std::size_t{1} * words.x * (y + std::size_t{1} * words.y * z)]
+                        .y |= 1u << (x % bricks_per_word);
+    }
+    matter_.upload(bits);
 }
 
 void ActivityPass::sleep_all(std::uint32_t tick) {
     changed_tick_.upload(std::vector<std::uint32_t>(volume(size_bricks_), tick - SLEEP_TICKS - 2));
     lists_[next_].upload(empty_list);
+    woken_tick_.reset();
 }
 
 void ActivityPass::touch(const std::vector<std::uint32_t>& bricks, std::uint32_t tick, std::uint32_t version,
@@ -112,23 +140,38 @@ void ActivityPass::make_room_for(std::span<const BlockGrid> grids) {
 void ActivityPass::begin_tick(std::uint32_t tick, std::span<const BlockGrid> grids) {
     CHECK(!grids.empty() && grids.size() <= grids_max);
     make_room_for(grids);
+    for (std::size_t i = 0; i < grids.size(); ++i) {
+        blocks_[i].upload(empty_list);
+        blocks_[i].bind_storage(i == 0 ? STORAGE_BLOCKS : STORAGE_BLOCKS_WIDE);
+    }
+    matter_.bind_storage(STORAGE_MATTER);
+    if (all_awake(tick)) {
+        list_all_blocks(grids);
+    } else {
+        woken_tick_.reset();
+        walk_active(tick, grids);
+    }
+}
+
+void ActivityPass::set_grids(const gl::Program& program, std::span<const BlockGrid> grids) const {
+    for (std::size_t i = 0; i < grids.size(); ++i) {
+        const GridUniforms& names = grid_uniforms[i];
+        program.set(names.block, grids[i].block_vox);
+        program.set(names.offset, grids[i].offset_vox);
+        program.set(names.count, grids[i].count(size_vox_));
+    }
+    program.set("size_vox", size_vox_);
+}
+
+void ActivityPass::walk_active(std::uint32_t tick, std::span<const BlockGrid> grids) {
     const gl::Buffer& active = next();
     next_ = 1 - next_;
     lists_[next_].upload(empty_list);
-    for (std::size_t i = 0; i < grids.size(); ++i) blocks_[i].upload(empty_list);
     if (++mark_ == 0) {
         block_marks_.clear();
         mark_ = 1;
     }
-
-    for (std::size_t i = 0; i < grids.size(); ++i) {
-        const GridUniforms& names = grid_uniforms[i];
-        wake_.set(names.block, grids[i].block_vox);
-        wake_.set(names.offset, grids[i].offset_vox);
-        wake_.set(names.count, grids[i].count(size_vox_));
-        blocks_[i].bind_storage(i == 0 ? STORAGE_BLOCKS : STORAGE_BLOCKS_WIDE);
-    }
-    wake_.set("size_vox", size_vox_);
+    set_grids(wake_, grids);
     wake_.set("size_bricks", size_bricks_);
     wake_.set("grids", static_cast<int>(grids.size()));
     wake_.set("tick", tick);
@@ -140,12 +183,24 @@ void ActivityPass::begin_tick(std::uint32_t tick, std::span<const BlockGrid> gri
     dispatch_indirect(wake_, active);
 }
 
+void ActivityPass::list_all_blocks(std::span<const BlockGrid> grids) const {
+    set_grids(all_, grids);
+    for (std::size_t i = 0; i < grids.size(); ++i) {
+        all_.set("grid", static_cast<int>(i));
+        const std::size_t groups =
+            (volume(grids[i].count(size_vox_)) + ACTIVE_PER_GROUP - 1) / ACTIVE_PER_GROUP;
+        all_.dispatch({std::min(groups, groups_per_row), (groups + groups_per_row - 1) / groups_per_row, 1});
+    }
+    barrier();
+}
+
 void ActivityPass::bind(const gl::Program& program, std::uint32_t tick) const {
     program.set("size_bricks", size_bricks_);
     program.set("tick", tick);
     changed_tick_.bind_storage(STORAGE_CHANGED_TICK);
     next().bind_storage(STORAGE_ACTIVE_NEXT);
     changes_.bind();
+    matter_.bind_storage(STORAGE_MATTER);
 }
 
 void ActivityPass::run_blocks(const gl::Program& program, int grid, std::uint32_t tick) const {
@@ -166,7 +221,7 @@ void ActivityPass::copy_active_bricks(const gl::Buffer& to, std::size_t offset_b
 }
 
 void ActivityPass::poll_reload(std::vector<std::string>& messages) {
-    for (gl::Program* program : {&wake_, &touch_})
+    for (gl::Program* program : {&wake_, &all_, &touch_})
         if (auto message = program->poll_reload()) messages.push_back(*message);
 }
 

@@ -5,6 +5,7 @@
 #pragma once
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,6 +14,8 @@
 #include "gl/program.h"
 #include "gl/texture.h"
 #include "passes/changes.h"
+#include "shared/water.h"
+#include "world/scene.h"
 
 namespace tarn {
 
@@ -41,10 +44,17 @@ class ActivityPass {
     // All cells are new.
     void log_all() { changes_.add_all(); }
     const ChangeLog& changes() const { return changes_; }
+    // Which bricks hold what moves, for lib/matter.glsl: set as they change, until it is found anew.
+    const gl::Buffer& matter() const { return matter_; }
     // As if no brick had changed in the ticks before `tick` for which bricks stay awake.
     void sleep_all(std::uint32_t tick);
 
-    // Finds what runs in `tick`; at most grids_max grids.
+    // Whether everything is awake in `tick`, a wake_all() before it being the last.
+    bool all_awake(std::uint32_t tick) const { return woken_tick_ && tick - *woken_tick_ < SLEEP_TICKS; }
+    // From now on bricks of these boxes count as holding what moves: something flows in within a tick.
+    void always_look_at(const std::vector<Box>& boxes_vox);
+
+    // Finds what runs in `tick`: what is awake and holds what moves. At most grids_max grids.
     void begin_tick(std::uint32_t tick, std::span<const BlockGrid> grids);
 
     // For a program with lib/activity.glsl whose changes belong to `tick`: its uniforms and buffers of these.
@@ -61,15 +71,21 @@ class ActivityPass {
   private:
     const gl::Buffer& next() const { return lists_[next_]; }
     void make_room_for(std::span<const BlockGrid> grids);
+    void set_grids(const gl::Program& program, std::span<const BlockGrid> grids) const;
+    void walk_active(std::uint32_t tick, std::span<const BlockGrid> grids);
+    void list_all_blocks(std::span<const BlockGrid> grids) const;
 
     glm::ivec3 size_vox_, size_bricks_;
-    gl::Program wake_, touch_;
+    gl::Program wake_, all_, touch_;
     gl::Buffer changed_tick_;
     gl::Buffer lists_[2];  // of active bricks: read in this tick, and made for the next
     int next_ = 0;
     gl::Buffer blocks_[grids_max], block_marks_;
     std::uint32_t mark_ = 0;
+    // Until SLEEP_TICKS ticks later the list of active bricks is that of all, and stays so.
+    std::optional<std::uint32_t> woken_tick_;
     ChangeLog changes_;
+    gl::Buffer matter_;
     std::size_t blocks_capacity_[grids_max]{};
 };
 
