@@ -48,7 +48,9 @@ void mark_brick_changed(ivec3 brick) {
     for (bool unstamped = imageLoad(brick_changed, brick).r != version; unstamped; unstamped = false)
         for (bool first = imageAtomicExchange(brick_changed, brick, version) != version; first; first = false) {
             append_change(index_of_brick(brick));
-            atomicOr(matter_bits[matter_word(brick, size_bricks)].x, 1u << (brick.x & 31));
+            int word = matter_word(brick, size_bricks);
+            atomicOr(matter[word].moves, 1u << (brick.x & 31));
+            atomicOr(matter[word].room, 1u << (brick.x & 31));
         }
     mark_brick_active(brick);
 }

@@ -11,5 +11,5 @@ void main() {
     uvec3 count = uvec3(count_blocks[grid]);
     if (id >= count.x * count.y * count.z) return;
     ivec3 block = ivec3(id % count.x, id / count.x % count.y, id / (count.x * count.y));
-    append_block(grid, id, holds_matter(grid, block, true));
+    append_block(grid, id, may_move(grid, block, true));
 }

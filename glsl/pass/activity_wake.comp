@@ -20,7 +20,7 @@ void mark_block(int grid, ivec3 block) {
     if (grid == 1) at += uint(count_blocks[0].x * count_blocks[0].y * count_blocks[0].z);
     for (bool unmarked = block_marks[at] != mark; unmarked; unmarked = false) {
         bool first = atomicExchange(block_marks[at], mark) != mark;
-        append_block(grid, id, holds_matter(grid, block, first));
+        append_block(grid, id, may_move(grid, block, first));
     }
 }
 

@@ -12,7 +12,7 @@ uniform bool diagonal;  // lines of this tick
 const int LAYER = TALL_SIDE * TALL_SIDE;
 const int HAS_WATER = 1;
 const int HAS_SAND = 2;
-shared int matter;
+shared int in_block;
 
 #ifdef PRESSURE
 shared uint head[GRID_CELLS];
@@ -181,7 +181,7 @@ void main() {
     ivec3 corner = block * ivec3(TALL_SIDE, TALL_HEIGHT, TALL_SIDE) - offset_vox;
     uint chance = block_chance(block);
     int lane = int(gl_LocalInvocationIndex);
-    if (lane == 0) matter = 0;
+    if (lane == 0) in_block = 0;
     barrier();
     int found = 0;
     for (int column = lane; column < LAYER; column += TALL_INVOCATIONS)
@@ -191,9 +191,9 @@ void main() {
             if (content > 0 && is_open(content)) found |= HAS_WATER;
             if (content == SAND) found |= HAS_SAND;
         }
-    if (found != 0) atomicOr(matter, found);
+    if (found != 0) atomicOr(in_block, found);
     barrier();
-    int moving = matter;
+    int moving = in_block;
     if (moving == 0) return;
 
     for (int column = lane; column < LAYER; column += TALL_INVOCATIONS) {

@@ -44,28 +44,42 @@ struct Strip {
 // The vectors that AVX2 code passes around stay inside functions that are inlined into it.
 #define TARN_INLINE inline __attribute__((always_inline))
 
-// What in a row moves, or'd to `moves` by cell of the world.
-template <typename Bytes, bool with_sand>
-TARN_INLINE void find_matter(const std::uint8_t* row, int n, std::uint8_t* moves) {
+// By cell of a row of the world: whether it moves, and whether it is room to move in (neither solid nor full
+// water).
+struct alignas(32) Found {
+    std::array<std::uint8_t, row_max> moves, room;
+};
+
+template <typename Bytes>
+TARN_INLINE void find_matter(const std::uint8_t* row, int n, Found& found) {
     constexpr int lanes = sizeof(Bytes);
     int x = 0;
     for (; x + lanes <= n; x += lanes) {
         Bytes cells;
-        Bytes found;
+        Bytes moves;
+        Bytes room;
         std::memcpy(&cells, row + x, lanes);
-        std::memcpy(&found, moves + x, lanes);
-        found |= reinterpret_cast<Bytes>((cells & 0xf0) == MATERIAL_WATER);
-        if (with_sand) found |= reinterpret_cast<Bytes>(cells == MATERIAL_SAND);
-        std::memcpy(moves + x, &found, lanes);
+        std::memcpy(&moves, found.moves.data() + x, lanes);
+        std::memcpy(&room, found.room.data() + x, lanes);
+        const Bytes matter = reinterpret_cast<Bytes>((cells & 0xf0) == MATERIAL_WATER) |
+                             reinterpret_cast<Bytes>(cells == MATERIAL_SAND);
+        moves |= matter;
+        room |= (matter & reinterpret_cast<Bytes>(cells != MATERIAL_WATER_FULL)) |
+                reinterpret_cast<Bytes>(cells == MATERIAL_AIR);
+        std::memcpy(found.moves.data() + x, &moves, lanes);
+        std::memcpy(found.room.data() + x, &room, lanes);
     }
-    for (; x < n; ++x)
-        if (is_water(row[x]) || (with_sand && row[x] == MATERIAL_SAND)) moves[x] = 0xff;
+    for (; x < n; ++x) {
+        const bool matter = is_water(row[x]) || row[x] == MATERIAL_SAND;
+        if (matter) found.moves[x] = 0xff;
+        if (row[x] == MATERIAL_AIR || (matter && row[x] != MATERIAL_WATER_FULL)) found.room[x] = 0xff;
+    }
 }
 
-bool any_in(const std::uint8_t* moves, int from, int end) {
-    for (int x = from; x < end; ++x)
-        if (moves[x] != 0) return true;
-    return false;
+TARN_INLINE bool any_in(const std::array<std::uint8_t, row_max>& flags, int from, int end) {
+    bool found = false;
+    for (int x = from; x < end; ++x) found = found || flags[x] != 0;
+    return found;
 }
 
 using Contents = std::array<Cell, 256>;
@@ -274,20 +288,22 @@ TARN_INLINE void wide_block(const Strip& strip, int bx) {
         store_row(strip, x, y, strip.first.z + z, side, &grid[side * z], &before[side * z]);
 }
 
-// Runs the blocks of a strip in which something can move.
+// Runs the blocks of a strip in which anything can move.
 template <typename Bytes, bool tall>
 TARN_INLINE void run_strip(const Strip& strip) {
     constexpr int side = tall ? TALL_SIDE : WIDE_SIDE;
-    alignas(32) std::array<std::uint8_t, row_max> moves;
-    std::fill_n(moves.begin(), strip.size_vox.x, std::uint8_t{0});
+    Found found;
+    std::fill_n(found.moves.begin(), strip.size_vox.x, std::uint8_t{0});
+    std::fill_n(found.room.begin(), strip.size_vox.x, std::uint8_t{0});
     for (int z = 0; z < side; ++z)
         for (int y = tall ? 0 : 1; y < (tall ? TALL_HEIGHT : WIDE_HEIGHT); ++y)
             if (strip.holds_row(strip.first.y + y, strip.first.z + z))
-                find_matter<Bytes, tall>(strip.row(strip.first.y + y, strip.first.z + z), strip.size_vox.x,
-                                         moves.data());
+                find_matter<Bytes>(strip.row(strip.first.y + y, strip.first.z + z), strip.size_vox.x, found);
     for (int bx = 0; bx < strip.blocks; ++bx) {
         const int x = strip.first.x + bx * side;
-        if (!any_in(moves.data(), std::max(x, 0), std::min(x + side, strip.size_vox.x))) continue;
+        const int from = std::max(x, 0);
+        const int end = std::min(x + side, strip.size_vox.x);
+        if (!any_in(found.moves, from, end) || !any_in(found.room, from, end)) continue;
         if constexpr (tall)
             tall_block(strip, bx);
         else

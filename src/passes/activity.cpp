@@ -29,7 +29,10 @@ std::size_t volume(glm::ivec3 size) {
     return std::size_t{1} * size.x * size.y * size.z;
 }
 
-// A word for each 32 bricks along x (lib/matter.glsl).
+// Of 32 bricks along x (lib/matter.glsl).
+struct MatterWord {
+    std::uint32_t moves, room, always, unused;
+};
 constexpr int bricks_per_word = 32;
 glm::ivec3 words_of(glm::ivec3 size_bricks) {
     return {(size_bricks.x + bricks_per_word - 1) / bricks_per_word, size_bricks.y, size_bricks.z};
@@ -66,7 +69,7 @@ ActivityPass::ActivityPass(glm::ivec3 size_vox)
       lists_{work_list("active bricks a", volume(size_bricks_)),
              work_list("active bricks b", volume(size_bricks_))},
       changes_(size_bricks_),
-      matter_("matter", 2 * word * volume(words_of(size_bricks_))) {}
+      matter_("matter", sizeof(MatterWord) * volume(words_of(size_bricks_))) {}
 
 void ActivityPass::wake_all(std::uint32_t tick) {
     const std::size_t bricks = volume(size_bricks_);
@@ -83,7 +86,7 @@ void ActivityPass::wake_all(std::uint32_t tick) {
 
 void ActivityPass::always_look_at(const std::vector<Box>& boxes_vox) {
     const glm::ivec3 words = words_of(size_bricks_);
-    std::vector<glm::uvec2> bits(volume(words));
+    std::vector<MatterWord> bits(volume(words));
     matter_.download(std::span(bits));
     for (const Box& box_vox : boxes_vox) {
         const Box box = clipped(box_vox, size_vox_);
@@ -93,7 +96,7 @@ void ActivityPass::always_look_at(const std::vector<Box>& boxes_vox) {
             for (int y = box.min_vox.y / BRICK_SIDE; y <= high.y; ++y)
                 for (int x = box.min_vox.x / BRICK_SIDE; x <= high.x; ++x)
                     bits[x / bricks_per_word + std::size_t{1} * words.x * (y + std::size_t{1} * words.y * z)]
-                        .y |= 1u << (x % bricks_per_word);
+                        .always |= 1u << (x % bricks_per_word);
     }
     matter_.upload(bits);
 }

@@ -44,7 +44,8 @@ class ActivityPass {
     // All cells are new.
     void log_all() { changes_.add_all(); }
     const ChangeLog& changes() const { return changes_; }
-    // Which bricks hold what moves, for lib/matter.glsl: set as they change, until it is found anew.
+    // Which bricks hold what moves and room for it, for lib/matter.glsl: set as they change, until it is
+    // found anew.
     const gl::Buffer& matter() const { return matter_; }
     // As if no brick had changed in the ticks before `tick` for which bricks stay awake.
     void sleep_all(std::uint32_t tick);
@@ -54,7 +55,7 @@ class ActivityPass {
     // From now on bricks of these boxes count as holding what moves: something flows in within a tick.
     void always_look_at(const std::vector<Box>& boxes_vox);
 
-    // Finds what runs in `tick`: what is awake and holds what moves. At most grids_max grids.
+    // Finds what runs in `tick`: what is awake and may move. At most grids_max grids.
     void begin_tick(std::uint32_t tick, std::span<const BlockGrid> grids);
 
     // For a program with lib/activity.glsl whose changes belong to `tick`: its uniforms and buffers of these.
