@@ -1,11 +1,10 @@
 // Which bricks may hold what moves, water or sand, and which room to move in: anything but solids and full water.
-// Both are set with every change and made exact once a version; bricks where springs flow in count as both always.
-// src/passes/activity.h owns the buffer.
+// Both are set with every change and made exact once a version. src/passes/activity.h owns the buffer.
 #include "shared/bindings.h"
 
 // Of 32 bricks along x.
 struct MatterWord {
-    uint moves, room, always, unused;
+    uint moves, room;
 };
 layout(std430, binding = STORAGE_MATTER) coherent buffer Matter { MatterWord matter[]; };
 

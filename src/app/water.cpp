@@ -31,11 +31,7 @@ Water::Water(const Scene& scene)
       size_vox_(scene.cells.size_vox()),
       springs_(scene.springs),
       drains_(scene.drains),
-      activity_(size_vox_) {
-    std::vector<Box> regions;
-    for (const Spring& spring : springs_) regions.push_back(spring.region);
-    if (!regions.empty()) activity_.always_look_at(regions);
-}
+      activity_(size_vox_) {}
 
 void Water::load(const Cells& cells, std::uint32_t tick) {
     may_hold_water_ = holds_water(cells.bytes()) ||

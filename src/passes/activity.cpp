@@ -8,7 +8,6 @@
 #include "passes/bricks.h"
 #include "shared/bindings.h"
 #include "shared/water.h"
-#include "world/schedule.h"
 
 namespace tarn {
 
@@ -31,7 +30,7 @@ std::size_t volume(glm::ivec3 size) {
 
 // Of 32 bricks along x (lib/matter.glsl).
 struct MatterWord {
-    std::uint32_t moves, room, always, unused;
+    std::uint32_t moves, room;
 };
 constexpr int bricks_per_word = 32;
 glm::ivec3 words_of(glm::ivec3 size_bricks) {
@@ -63,7 +62,9 @@ ActivityPass::ActivityPass(glm::ivec3 size_vox)
     : size_vox_(size_vox),
       size_bricks_(bricks_of(size_vox)),
       wake_({.label = "wake", .compute = "pass/activity_wake.comp"}),
-      all_({.label = "all awake", .compute = "pass/activity_all.comp"}),
+      blocks_program_({.label = "blocks", .compute = "pass/activity_blocks.comp"}),
+      all_blocks_program_(
+          {.label = "all blocks", .compute = "pass/activity_blocks.comp", .defines = {{"ALL", "1"}}}),
       touch_({.label = "touch", .compute = "pass/activity_touch.comp"}),
       changed_tick_("changed tick", volume(size_bricks_) * word),
       lists_{work_list("active bricks a", volume(size_bricks_)),
@@ -82,23 +83,6 @@ void ActivityPass::wake_all(std::uint32_t tick) {
     std::iota(list.begin() + header_words, list.end(), 0u);
     lists_[next_].upload(list);
     woken_tick_ = tick;
-}
-
-void ActivityPass::always_look_at(const std::vector<Box>& boxes_vox) {
-    const glm::ivec3 words = words_of(size_bricks_);
-    std::vector<MatterWord> bits(volume(words));
-    matter_.download(std::span(bits));
-    for (const Box& box_vox : boxes_vox) {
-        const Box box = clipped(box_vox, size_vox_);
-        if (box.volume() == 0) continue;
-        const glm::ivec3 high = (box.max_vox - 1) / BRICK_SIDE;
-        for (int z = box.min_vox.z / BRICK_SIDE; z <= high.z; ++z)
-            for (int y = box.min_vox.y / BRICK_SIDE; y <= high.y; ++y)
-                for (int x = box.min_vox.x / BRICK_SIDE; x <= high.x; ++x)
-                    bits[x / bricks_per_word + std::size_t{1} * words.x * (y + std::size_t{1} * words.y * z)]
-                        .always |= 1u << (x % bricks_per_word);
-    }
-    matter_.upload(bits);
 }
 
 void ActivityPass::sleep_all(std::uint32_t tick) {
@@ -133,6 +117,7 @@ void ActivityPass::make_room_for(std::span<const BlockGrid> grids) {
         marks += blocks;
         if (blocks <= blocks_capacity_[i]) continue;
         blocks_[i] = work_list("blocks", blocks);
+        awake_blocks_[i] = work_list("awake blocks", blocks);
         blocks_capacity_[i] = blocks;
         grown = true;
     }
@@ -143,30 +128,11 @@ void ActivityPass::make_room_for(std::span<const BlockGrid> grids) {
 void ActivityPass::begin_tick(std::uint32_t tick, std::span<const BlockGrid> grids) {
     CHECK(!grids.empty() && grids.size() <= grids_max);
     make_room_for(grids);
-    for (std::size_t i = 0; i < grids.size(); ++i) {
-        blocks_[i].upload(empty_list);
-        blocks_[i].bind_storage(i == 0 ? STORAGE_BLOCKS : STORAGE_BLOCKS_WIDE);
-    }
-    matter_.bind_storage(STORAGE_MATTER);
-    if (all_awake(tick)) {
-        list_all_blocks(grids);
-    } else {
-        woken_tick_.reset();
-        walk_active(tick, grids);
-    }
-}
+    std::copy(grids.begin(), grids.end(), grids_.begin());
+    // The list of active bricks is that of all, and stays so.
+    if (all_awake(tick)) return;
+    woken_tick_.reset();
 
-void ActivityPass::set_grids(const gl::Program& program, std::span<const BlockGrid> grids) const {
-    for (std::size_t i = 0; i < grids.size(); ++i) {
-        const GridUniforms& names = grid_uniforms[i];
-        program.set(names.block, grids[i].block_vox);
-        program.set(names.offset, grids[i].offset_vox);
-        program.set(names.count, grids[i].count(size_vox_));
-    }
-    program.set("size_vox", size_vox_);
-}
-
-void ActivityPass::walk_active(std::uint32_t tick, std::span<const BlockGrid> grids) {
     const gl::Buffer& active = next();
     next_ = 1 - next_;
     lists_[next_].upload(empty_list);
@@ -174,7 +140,15 @@ void ActivityPass::walk_active(std::uint32_t tick, std::span<const BlockGrid> gr
         block_marks_.clear();
         mark_ = 1;
     }
-    set_grids(wake_, grids);
+    for (std::size_t i = 0; i < grids.size(); ++i) {
+        const GridUniforms& names = grid_uniforms[i];
+        wake_.set(names.block, grids[i].block_vox);
+        wake_.set(names.offset, grids[i].offset_vox);
+        wake_.set(names.count, grids[i].count(size_vox_));
+        awake_blocks_[i].upload(empty_list);
+        awake_blocks_[i].bind_storage(i == 0 ? STORAGE_AWAKE_BLOCKS : STORAGE_AWAKE_BLOCKS_WIDE);
+    }
+    wake_.set("size_vox", size_vox_);
     wake_.set("size_bricks", size_bricks_);
     wake_.set("grids", static_cast<int>(grids.size()));
     wake_.set("tick", tick);
@@ -186,14 +160,24 @@ void ActivityPass::walk_active(std::uint32_t tick, std::span<const BlockGrid> gr
     dispatch_indirect(wake_, active);
 }
 
-void ActivityPass::list_all_blocks(std::span<const BlockGrid> grids) const {
-    set_grids(all_, grids);
-    for (std::size_t i = 0; i < grids.size(); ++i) {
-        all_.set("grid", static_cast<int>(i));
-        const std::size_t groups =
-            (volume(grids[i].count(size_vox_)) + ACTIVE_PER_GROUP - 1) / ACTIVE_PER_GROUP;
-        all_.dispatch({std::min(groups, groups_per_row), (groups + groups_per_row - 1) / groups_per_row, 1});
+void ActivityPass::list_blocks(std::size_t grid, std::uint32_t tick) {
+    const bool all = all_awake(tick);
+    const gl::Program& program = all ? all_blocks_program_ : blocks_program_;
+    program.set("block_vox", grids_[grid].block_vox);
+    program.set("offset_vox", grids_[grid].offset_vox);
+    program.set("count_blocks", grids_[grid].count(size_vox_));
+    program.set("size_vox", size_vox_);
+    blocks_[grid].upload(empty_list);
+    blocks_[grid].bind_storage(STORAGE_BLOCKS);
+    matter_.bind_storage(STORAGE_MATTER);
+    if (!all) {
+        awake_blocks_[grid].bind_storage(STORAGE_AWAKE_BLOCKS);
+        dispatch_indirect(program, awake_blocks_[grid]);
+        return;
     }
+    const std::size_t groups =
+        (volume(grids_[grid].count(size_vox_)) + ACTIVE_PER_GROUP - 1) / ACTIVE_PER_GROUP;
+    program.dispatch({std::min(groups, groups_per_row), (groups + groups_per_row - 1) / groups_per_row, 1});
     barrier();
 }
 
@@ -206,7 +190,8 @@ void ActivityPass::bind(const gl::Program& program, std::uint32_t tick) const {
     matter_.bind_storage(STORAGE_MATTER);
 }
 
-void ActivityPass::run_blocks(const gl::Program& program, int grid, std::uint32_t tick) const {
+void ActivityPass::run_blocks(const gl::Program& program, std::size_t grid, std::uint32_t tick) {
+    list_blocks(grid, tick);
     bind(program, tick);
     blocks_[grid].bind_storage(STORAGE_BLOCKS);
     dispatch_indirect(program, blocks_[grid]);
@@ -224,7 +209,7 @@ void ActivityPass::copy_active_bricks(const gl::Buffer& to, std::size_t offset_b
 }
 
 void ActivityPass::poll_reload(std::vector<std::string>& messages) {
-    for (gl::Program* program : {&wake_, &all_, &touch_})
+    for (gl::Program* program : {&wake_, &blocks_program_, &all_blocks_program_, &touch_})
         if (auto message = program->poll_reload()) messages.push_back(*message);
 }
 
