@@ -4,6 +4,7 @@
 #include "shared/bindings.h"
 #include "shared/water.h"
 #include "lib/changes.glsl"
+#include "lib/matter.glsl"
 #include "lib/work_list.glsl"
 
 layout(r32ui, binding = IMAGE_BRICK_CHANGED) coherent uniform uimage3D brick_changed;
@@ -45,8 +46,12 @@ void mark_brick_active(ivec3 brick) { mark_active(index_of_brick(brick)); }
 
 void mark_brick_changed(ivec3 brick) {
     for (bool unstamped = imageLoad(brick_changed, brick).r != version; unstamped; unstamped = false)
-        for (bool first = imageAtomicExchange(brick_changed, brick, version) != version; first; first = false)
+        for (bool first = imageAtomicExchange(brick_changed, brick, version) != version; first; first = false) {
             append_change(index_of_brick(brick));
+            int word = matter_word(brick, size_bricks);
+            atomicOr(matter[word].moves, 1u << (brick.x & 31));
+            atomicOr(matter[word].room, 1u << (brick.x & 31));
+        }
     mark_brick_active(brick);
 }
 

@@ -1,5 +1,5 @@
 // The active bricks of the tick that begins: those that changed lately stay on the list, and the blocks of one or
-// two grids that touch them or a neighbour are put on the lists of blocks to run. An invocation a brick.
+// two grids that touch them or a neighbour are listed as awake. An invocation a brick.
 #include "lib/activity.glsl"
 
 layout(local_size_x = ACTIVE_PER_GROUP) in;
@@ -10,13 +10,13 @@ layout(std430, binding = STORAGE_ACTIVE) readonly buffer Active {
 };
 // `mark` for a block on its list; those of the second grid follow those of the first.
 layout(std430, binding = STORAGE_BLOCK_MARKS) coherent buffer BlockMarks { uint block_marks[]; };
-layout(std430, binding = STORAGE_BLOCKS) buffer Blocks {
-    WorkHeader blocks;
-    uint block_ids[];
+layout(std430, binding = STORAGE_AWAKE_BLOCKS) buffer AwakeBlocks {
+    WorkHeader awake_blocks;
+    uint awake_block_ids[];
 };
-layout(std430, binding = STORAGE_BLOCKS_WIDE) buffer WideBlocks {
-    WorkHeader wide_blocks;
-    uint wide_block_ids[];
+layout(std430, binding = STORAGE_AWAKE_BLOCKS_WIDE) buffer AwakeWideBlocks {
+    WorkHeader awake_wide_blocks;
+    uint awake_wide_block_ids[];
 };
 
 uniform ivec3 size_vox;
@@ -34,16 +34,18 @@ void mark_block(int grid, ivec3 block) {
     for (bool unmarked = block_marks[at] != mark; unmarked; unmarked = false) {
         bool first = atomicExchange(block_marks[at], mark) != mark;
         for (bool tall = first && grid == 0; tall; tall = false) {
-            uint slot = atomicAdd(blocks.count, 1u);
-            block_ids[slot] = id;
-            atomicMax(blocks.groups_x, min(slot + 1u, WORK_GROUPS_PER_ROW));
-            if (slot % WORK_GROUPS_PER_ROW == 0u) atomicAdd(blocks.groups_y, 1u);
+            uint slot = atomicAdd(awake_blocks.count, 1u);
+            awake_block_ids[slot] = id;
+            uint group = slot / ACTIVE_PER_GROUP;
+            atomicMax(awake_blocks.groups_x, min(group + 1u, WORK_GROUPS_PER_ROW));
+            if (slot % (ACTIVE_PER_GROUP * WORK_GROUPS_PER_ROW) == 0u) atomicAdd(awake_blocks.groups_y, 1u);
         }
         for (bool wide = first && grid == 1; wide; wide = false) {
-            uint slot = atomicAdd(wide_blocks.count, 1u);
-            wide_block_ids[slot] = id;
-            atomicMax(wide_blocks.groups_x, min(slot + 1u, WORK_GROUPS_PER_ROW));
-            if (slot % WORK_GROUPS_PER_ROW == 0u) atomicAdd(wide_blocks.groups_y, 1u);
+            uint slot = atomicAdd(awake_wide_blocks.count, 1u);
+            awake_wide_block_ids[slot] = id;
+            uint group = slot / ACTIVE_PER_GROUP;
+            atomicMax(awake_wide_blocks.groups_x, min(group + 1u, WORK_GROUPS_PER_ROW));
+            if (slot % (ACTIVE_PER_GROUP * WORK_GROUPS_PER_ROW) == 0u) atomicAdd(awake_wide_blocks.groups_y, 1u);
         }
     }
 }

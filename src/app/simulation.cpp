@@ -57,7 +57,7 @@ struct Simulation::Parts {
     std::uint32_t stamp() const { return static_cast<std::uint32_t>(version); }
     std::uint32_t tick32() const { return static_cast<std::uint32_t>(tick); }
     void update_bricks() {
-        bricks.record({.cells = cells, .changes = water.activity().changes(), .version = stamp()},
+        bricks.record({.cells = cells, .activity = water.activity(), .version = stamp()},
                       {.brick_distance = brick_distance}, timers);
     }
     void load(const Cells& from);

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "shared/water.h"
-
 namespace tarn {
 
 namespace {
@@ -41,18 +39,8 @@ void Water::load(const Cells& cells, std::uint32_t tick) {
                                   [](const Spring& s) { return s.material == MATERIAL_WATER; });
     may_confine_ = has_overhang(cells);
     head_.reset();
-    wake_all(tick);
-    activity_.log_all();
-}
-
-void Water::wake_all(std::uint32_t tick) {
     activity_.wake_all(tick);
-    woken_tick_ = tick;
-}
-
-void Water::sleep_all(std::uint32_t tick) {
-    activity_.sleep_all(tick);
-    woken_tick_.reset();
+    activity_.log_all();
 }
 
 void Water::edited(const Edited& edit, const gl::Texture& brick_changed) {
@@ -65,8 +53,7 @@ void Water::edited(const Edited& edit, const gl::Texture& brick_changed) {
 void Water::tick(const Inputs& in, const Outputs& out, gl::Timers& timers) {
     // What was at rest under one rule need not be under another.
     const bool other_rule = last_ && (last_->tier != in.tier || last_->film_threshold != in.film_threshold);
-    const bool stays_awake = woken_tick_ && in.tick - *woken_tick_ < SLEEP_TICKS;
-    if (other_rule || (in.always_awake && !stays_awake)) wake_all(in.tick);
+    if (other_rule || (in.always_awake && !activity_.all_awake(in.tick))) activity_.wake_all(in.tick);
     last_ = in;
     if (in.tier != WaterTier::Pressure) head_.reset();
     if (in.tier == WaterTier::Pressure && !head_ && may_hold_water_ && may_confine_) head_.emplace(size_vox_);

@@ -38,8 +38,8 @@ class Water {
 
     // All cells are new: everything wakes and counts as changed.
     void load(const Cells& cells, std::uint32_t tick);
-    void wake_all(std::uint32_t tick);
-    void sleep_all(std::uint32_t tick);
+    void wake_all(std::uint32_t tick) { activity_.wake_all(tick); }
+    void sleep_all(std::uint32_t tick) { activity_.sleep_all(tick); }
     // An edit before `tick` that makes `version` changed cells of `bricks`, at least one of each; `before`
     // and `after` are bytes of one box.
     struct Edited {
@@ -74,7 +74,6 @@ class Water {
     bool may_hold_water_ = false;
     bool may_confine_ = false;  // a solid may lie over a cell that water can reach
     std::optional<Inputs> last_;
-    std::optional<std::uint32_t> woken_tick_;  // when all woke, unless all were put to sleep since
 };
 
 }  // namespace tarn

@@ -47,13 +47,14 @@ BricksPass::BricksPass(glm::ivec3 size_bricks)
 void BricksPass::record(const Inputs& in, const Outputs& out, gl::Timers& timers) {
     const glm::ivec3 size_bricks = occupancy_.size();
     const auto scope = timers.scope("bricks");
-    reader_.read(in.changes, in.version);
+    reader_.read(in.activity.changes(), in.version);
+    in.activity.matter().bind_storage(STORAGE_MATTER);
     flips_.bind_storage(STORAGE_BRICK_FLIPS);
     boxes_.bind_storage(STORAGE_DISTANCE_BOXES);
     in.cells.bind(BINDING_CELLS);
     occupancy_.bind_image(0, GL_READ_WRITE);
     occupancy_program_.set("size_bricks", size_bricks);
-    reader_.run(occupancy_program_, in.changes);
+    reader_.run(occupancy_program_, in.activity.changes());
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     boxes_program_.set("size_bricks", size_bricks);
     boxes_program_.dispatch({1, 1, 1});

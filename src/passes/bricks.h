@@ -10,6 +10,7 @@
 #include "gl/program.h"
 #include "gl/texture.h"
 #include "gl/timers.h"
+#include "passes/activity.h"
 #include "passes/changes.h"
 
 namespace tarn {
@@ -18,11 +19,12 @@ class BricksPass {
   public:
     struct Inputs {
         const gl::Texture& cells;  // R8UI
-        const ChangeLog& changes;
+        const ActivityPass& activity;
         std::uint32_t version;  // of the world
     };
     struct Outputs {
         gl::Texture& brick_distance;  // RG8UI, as in app/simulation.h; holds what the last call left
+        // And which bricks hold what moves, in Inputs::activity.
     };
 
     explicit BricksPass(glm::ivec3 size_bricks);

@@ -34,7 +34,7 @@ void LevelStepPass::record(const Inputs& in, const Outputs& out) {
     out.brick_changed.bind_image(IMAGE_BRICK_CHANGED, GL_READ_WRITE);
     if (out.acting_head != nullptr) out.acting_head->bind_image(IMAGE_ACTING_HEAD, GL_READ_WRITE);
     run.tall.set("diagonal", hash2(in.seed ^ SALT_DIAGONAL, in.tick) % 3 == 0 ? 1 : 0);
-    for (int grid = 0; grid < 2; ++grid) {
+    for (std::size_t grid = 0; grid < 2; ++grid) {
         const gl::Program& program = grid == 0 ? run.tall : run.wide;
         program.set("size_vox", size_vox);
         program.set("offset_vox", of_tick[grid].offset_vox);
