@@ -110,8 +110,7 @@ TraceFeatures Renderer::Parts::features(const Simulation& simulation) const {
         if (!clear) features.coated |= m.ior != 1 || m.metallic > 0;
         if (!clear) features.metal |= m.metallic > 0;
         features.clear |= clear;
-        const glm::vec3 shines = id == MATERIAL_WATER ? glm::vec3(0) : m.emission;  // as in lib/emitter_tree
-        features.emitters |= std::max({shines.x, shines.y, shines.z}) > 0;
+        features.emitters |= id != MATERIAL_WATER && shines(m);  // as in lib/emitter_tree
     }
     features.skip = settings.traversal == Traversal::Distance;
     features.sun = settings.light_sampling != LightSampling::None && block.sun_radiance.w > 0;
