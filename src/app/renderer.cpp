@@ -116,7 +116,6 @@ TraceFeatures Renderer::Parts::features(const Simulation& simulation) const {
     features.sun = settings.light_sampling != LightSampling::None && block.sun_radiance.w > 0;
     features.sky = settings.light_sampling == LightSampling::All;
     features.emitters &= settings.light_sampling != LightSampling::None;
-    features.clear_sky = settings.sky_model == SkyModel::Preetham;
     features.smooth_water = settings.smooth_water && contents.may_hold(simulation, MATERIAL_WATER);
     features.count = counts_paths(settings.view);
     return features;

@@ -24,7 +24,6 @@ gl::ProgramDesc describe(const TraceFeatures& features) {
     define(features.sun, "TRACE_SUN");
     define(features.sky, "TRACE_SKY");
     define(features.emitters, "TRACE_EMITTERS");
-    define(features.clear_sky, "TRACE_PREETHAM");
     define(features.smooth_water, "TRACE_SMOOTH_WATER");
     define(features.count, "TRACE_COUNT");
     return desc;

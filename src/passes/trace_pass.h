@@ -21,7 +21,6 @@ struct TraceFeatures {
     bool sun = false;           // sampled
     bool sky = false;           // sampled
     bool emitters = false;      // emissive voxels, sampled
-    bool clear_sky = false;     // of Preetham, Shirley & Smits; otherwise two colours
     bool smooth_water = false;  // levels of neighbouring voxels shaded as one surface; with clear
     bool count = false;         // bounces and steps, for views
     auto operator<=>(const TraceFeatures&) const = default;
