@@ -76,6 +76,7 @@ class Shader {
 struct Built {
     GLuint name;
     std::vector<std::string> files;
+    bool was_cached;
 };
 
 struct Stage {
@@ -157,13 +158,14 @@ Built build(const ProgramDesc& desc) {
         stages.push_back({GL_VERTEX_SHADER, shader_text(desc.vertex, desc.defines)});
         stages.push_back({GL_FRAGMENT_SHADER, shader_text(desc.fragment, desc.defines)});
     }
-    Built built{glCreateProgram(), {}};
+    Built built{glCreateProgram(), {}, false};
     for (const Stage& stage : stages)
         built.files.insert(built.files.end(), stage.source.files.begin(), stage.source.files.end());
     const ProgramCache cache(program_cache_folder());
     const std::vector<GLint> formats = binary_formats();
     const std::string key = formats.empty() ? std::string() : cache_key(stages);
-    if (formats.empty() || !load(built.name, cache, key, formats)) {
+    built.was_cached = !formats.empty() && load(built.name, cache, key, formats);
+    if (!built.was_cached) {
         try {
             compile_and_link(built.name, stages, desc.label);
         } catch (...) {
@@ -198,6 +200,7 @@ Program::Program(ProgramDesc desc) : desc_(std::move(desc)) {
     name_ = built.name;
     files_ = std::move(built.files);
     stamp_ = newest(files_);
+    was_cached_ = built.was_cached;
 }
 
 Program::~Program() {
@@ -209,6 +212,7 @@ Program::Program(Program&& other) noexcept
       name_(std::exchange(other.name_, 0)),
       files_(std::move(other.files_)),
       stamp_(other.stamp_),
+      was_cached_(other.was_cached_),
       locations_(std::move(other.locations_)) {}
 
 Program& Program::operator=(Program&& other) noexcept {
@@ -216,6 +220,7 @@ Program& Program::operator=(Program&& other) noexcept {
     std::swap(name_, other.name_);
     std::swap(files_, other.files_);
     std::swap(stamp_, other.stamp_);
+    std::swap(was_cached_, other.was_cached_);
     std::swap(locations_, other.locations_);
     return *this;
 }
@@ -279,6 +284,7 @@ std::optional<std::string> Program::poll_reload() {
         }
         glDeleteProgram(std::exchange(name_, built.name));
         files_ = std::move(built.files);
+        was_cached_ = built.was_cached;
         locations_.clear();
         return "";
     } catch (const Error& error) {
