@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "measure/light_table.h"
 #include "measure/water_scenarios.h"
+#include "world/recording.h"
 
 namespace tarn {
 
@@ -62,6 +63,34 @@ void apply_view(const std::string& text, Settings& settings) {
     if (found == names.end())
         fail("--view {}: no such view; allowed: one of {}", text, fmt::join(names, ", "));
     settings.view = static_cast<ViewKind>(found - names.begin());
+}
+
+void path_options(CLI::App* render, Arguments& arguments, CLI::Option* frames) {
+    auto* path = render->add_option(
+        "--path", arguments.path,
+        "Play a recording, a built-in name below or a file ending in .json, in the scene; writes "
+        "F-0000.png, F-0001.png, ...");
+    path->excludes(frames);
+    render
+        ->add_flag("--strip", arguments.strip,
+                   "All frames of the recording in one PNG, six in a row, from left to right")
+        ->needs(path);
+    render->footer(fmt::format(
+        "Recordings: {}.\n"
+        "A recording is a file of JSON for any scene: the scene is --scene, its world after --ticks. Keys:\n"
+        "  camera           relative: positions are right, up, ahead of the scene's camera, angles are turns "
+        "from it;\n"
+        "                   absolute: as in --camera\n"
+        "  frames           how many\n"
+        "  lead_frames      before the first, with its camera and without ticks, not written (0)\n"
+        "  ticks_per_frame  a number, or a list with one for each frame (0)\n"
+        "  keys             list of {{frame, position_vox, yaw_deg, pitch_deg, fov_deg}}, the first at frame "
+        "0; straight\n"
+        "                   between them\n"
+        "  edits            list of {{frame, center_vox, shape (sphere, cube), radius_vox, material, "
+        "overwrite}}\n"
+        "With --exact each frame is the mean of --spp samples.",
+        fmt::join(builtin_recordings(), ", ")));
 }
 
 void water_options(CLI::App* water, Arguments& arguments) {
@@ -209,6 +238,7 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
                                    fmt::join(choice_names<ViewKind>(), ", ")));
     render->add_option("--camera", arguments.camera, "x,y,z,yaw,pitch[,fov] in place of the scene's");
     render->add_option("--stats", arguments.stats, "Write counts, times and settings as JSON");
+    path_options(render, arguments, frames);
 
     CLI::App* simulate = app.add_subcommand("simulate", "Run the simulation without a picture");
     scene_options(simulate, true);

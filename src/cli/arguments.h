@@ -20,6 +20,8 @@ struct Arguments {
     std::vector<std::string> set;
     std::uint64_t ticks = 0;
     int frames = 1;
+    std::string path;    // of `render`: a recording
+    bool strip = false;  // its frames in one picture
     bool exact = false;
     int spp = 64;
     std::optional<std::uint32_t> seed;

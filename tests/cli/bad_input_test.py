@@ -124,6 +124,32 @@ class BadScenes(Case):
                            "build": [{"box": {"min": [0, 0, 0], "max": [1, 1, 1], "material": "cheese"}}]}, "cheese")
 
 
+class BadRecordings(Case):
+    def refuse_recording(self, text, *words):
+        self.write("r.json", text if isinstance(text, str) else json.dumps(text))
+        self.refuse([*RENDER, "--out", "a.png", "--path", "r.json"], "r.json", *words)
+
+    def test_options(self):
+        self.refuse([*RENDER, "--out", "a.png", "--path", "walking"], "walking", "flying, moving-water, still", ".json")
+        self.refuse([*RENDER, "--out", "a.png", "--path", "none.json"], "none.json", "No such file")
+        self.refuse([*RENDER, "--out", "a.png", "--path", "still", "--frames", "3"], "--path", "--frames")
+        self.refuse([*RENDER, "--out", "a.png", "--strip"], "--strip", "--path")
+        self.refuse([*RENDER, "--out", "a.exr", "--strip", "--path", "still"], "--strip", ".png")
+        self.refuse(["render", "--scene", "flat", "--out", "a.png", "--size", "4000x4000", "--strip", "--path", "still"],
+                    "--strip", "pixels")
+        self.refuse([*RENDER, "--out", "missing/a.png", "--path", "still"], "missing", "cannot write")
+
+    def test_files(self):
+        good = {"camera": "relative", "frames": 2, "keys": [{"frame": 0}]}
+        self.refuse_recording("", "1")
+        self.refuse_recording({**good, "frames": -1}, "frames", "1 to")
+        self.refuse_recording({**good, "roll": 1}, "roll", "unknown key")
+        self.refuse_recording({**good, "keys": [{"frame": 1}]}, "keys[0].frame")
+        self.refuse_recording({**good, "ticks_per_frame": 1001}, "ticks_per_frame", "0 to 1000")
+        self.refuse_recording({**good, "edits": [{"frame": 0, "center_vox": [0, 0, 0], "material": "cheese"}]},
+                              "edits[0].material", "water")
+
+
 class BadOutputs(Case):
     def test_pictures(self):
         self.refuse([*RENDER, "--out", "missing/a.png"], "missing", "cannot write")
