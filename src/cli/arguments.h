@@ -35,6 +35,9 @@ struct Arguments {
     std::string suites, compare, with;
     std::vector<int> bench_sides_vox{128, 256, 512};
     int repeats = 5;
+    // Of `tradeoff`; its scenes are `scenarios`.
+    bool quick = false, resume = false;
+    int configurations = 0, reference_samples = 0;  // 0: by --quick
 };
 
 // Nothing where help was asked for and printed. Throws Error naming the argument, the reason and what is

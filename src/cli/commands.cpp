@@ -14,6 +14,7 @@
 #include "cli/path_command.h"
 #include "cli/progress.h"
 #include "cli/ticks.h"
+#include "cli/tradeoff_command.h"
 #include "cli/water_command.h"
 #include "core/error.h"
 #include "core/files.h"
@@ -153,6 +154,7 @@ int run_command_line(int argc, char** argv) {
     if (arguments->command == "water") return run_water_command(*arguments);
     if (arguments->command == "light") return run_light_command(*arguments);
     if (arguments->command == "bench") return run_bench_command(*arguments);
+    if (arguments->command == "tradeoff") return run_tradeoff_command(*arguments);
     if (arguments->command == "scenes") return run_scenes();
     if (arguments->command == "settings") return run_settings();
     return run_doctor();

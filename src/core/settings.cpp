@@ -298,6 +298,12 @@ void apply_quality(Settings& settings, Quality quality) {
     settings.quality = quality;
 }
 
+std::vector<std::string> preset_keys() {
+    std::vector<std::string> keys;
+    for (const PresetRow& row : presets) keys.emplace_back(row.name);
+    return keys;
+}
+
 SettingEffect difference(const Settings& a, const Settings& b) {
     auto strongest = SettingEffect::NONE;
     for (const SettingInfo& info : setting_infos()) {

@@ -84,6 +84,9 @@ void set_assignment(Settings& settings, std::string_view assignment);
 // Sets `quality` and every setting that its preset names.
 void apply_quality(Settings& settings, Quality quality);
 
+// The settings that every quality sets, in the order of the presets.
+std::vector<std::string> preset_keys();
+
 // The strongest effect among the fields in which `a` and `b` differ.
 SettingEffect difference(const Settings& a, const Settings& b);
 

@@ -19,7 +19,7 @@ class BadArguments(Case):
         for option in ("--camera", "--stats", "--out"):
             self.refuse(["render", "--scene", "flat", "--out", "x.png", option, ""], option, "empty")
         self.refuse(["water", "--tier", ""], "--tier", "empty")
-        self.refuse(["dig"], "dig", "play, render, simulate, water, light, bench, scenes, settings, doctor")
+        self.refuse(["dig"], "dig", "play, render, simulate, water, light, bench, tradeoff, scenes, settings, doctor")
         self.refuse(["render", "--scene", "flat"], "--out", "required")
         self.refuse(["simulate", "--scene", "flat"], "--ticks", "required")
         self.refuse(["simulate", "--ticks", "1"], "--scene", "required")
