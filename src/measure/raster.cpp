@@ -28,6 +28,7 @@ struct Raster::Font {
         ImFontConfig config;
         config.SizePixels = font_px * static_cast<float>(scale);
         config.PixelSnapH = true;
+        config.OversampleH = config.OversampleV = 1;  // a texel of the atlas is a pixel
         font = atlas.AddFontDefault(&config);
         atlas.GetTexDataAsAlpha8(&alpha, &width, &height);
     }

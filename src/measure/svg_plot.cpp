@@ -98,8 +98,8 @@ void draw_series(const PlotSeries& series, const Scale& x, const Scale& y, const
         if (i < series.labels.size() && !series.labels[i].empty()) {
             // Inside the frame, whichever side the point is on.
             const bool right = px.back().x > (x.from_px + 2 * x.to_px) / 3;
-            drawing.text(px.back() + glm::dvec2(right ? -7 : 7, -6), series.labels[i],
-                         right ? Anchor::End : Anchor::Start, color);
+            drawing.text(px.back() + glm::dvec2(right ? -7 : 7, series.labels_below ? 16 : -6),
+                         series.labels[i], right ? Anchor::End : Anchor::Start, color);
         }
     }
     if (series.line && !px.empty()) drawing.polyline(thinned(px), color, 1.5);

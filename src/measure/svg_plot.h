@@ -17,6 +17,7 @@ struct PlotSeries {
     bool line = true;
     bool dots = false;
     std::vector<std::string> labels = {};  // beside the points, in their order; may be fewer
+    bool labels_below = false;             // the points; else above
     double dot_radius = 2.5;
     bool filled = true;  // of the dots
 };

@@ -19,14 +19,31 @@ bool is_quality(const Measured& m, Quality quality) {
     return m.configuration == configuration_of(quality);
 }
 
+bool is_baseline(const Measured& m) {
+    return std::any_of(std::begin(baseline_samples), std::end(baseline_samples),
+                       [&](int samples) { return m.configuration == baseline_with(samples); });
+}
+
+// `baseline` is drawn while it errs by at most so many times the worst of the others: the front would shrink
+// to a line.
+constexpr double baseline_room = 10;
+
 // The front's points are named by letters, which the text beside the chart explains.
 PlotPanel panel_of(const std::string& title, const std::string& time_label,
                    const std::vector<Measured>& measured) {
     PlotPanel panel{.title = title,
                     .x = {.label = time_label, .log = true, .low = 1e30, .high = 0},
                     .y = {.label = "relMSE", .log = true, .low = 1e30, .high = 0}};
+    double worst = 0;
+    for (const Measured& m : measured)
+        if (!is_baseline(m)) worst = std::max(worst, m.error);
+    bool all_baselines = true;
     for (const Measured& m : measured) {
         if (m.error <= 0) continue;
+        if (is_baseline(m) && worst > 0 && m.error > baseline_room * worst) {
+            all_baselines = false;
+            continue;
+        }
         panel.x.low = std::min(panel.x.low, m.time / 1.3);
         panel.x.high = std::max(panel.x.high, m.time);
         panel.y.low = std::min(panel.y.low, m.error / 1.3);
@@ -38,9 +55,15 @@ PlotPanel panel_of(const std::string& title, const std::string& time_label,
     }
     PlotSeries all{.name = "measured", .line = false, .dots = true, .dot_radius = 1.8};
     PlotSeries front{.name = "Pareto front", .dots = true};
-    PlotSeries qualities{.name = "qualities", .line = false, .dots = true, .dot_radius = 5, .filled = false};
+    PlotSeries qualities{.name = "qualities",
+                         .line = false,
+                         .dots = true,
+                         .labels_below = true,
+                         .dot_radius = 5,
+                         .filled = false};
     PlotSeries baseline{.name = "baseline, 1 to 64 samples", .dots = true};
-    for (const Measured& m : measured) all.points.push_back(point_of(m));
+    for (const Measured& m : measured)
+        if (all_baselines || !is_baseline(m)) all.points.push_back(point_of(m));
     const auto on_front = pareto_front(measured);
     for (std::size_t i = 0; i < on_front.size(); ++i) {
         front.points.push_back(point_of(measured[on_front[i]]));
@@ -54,7 +77,9 @@ PlotPanel panel_of(const std::string& title, const std::string& time_label,
             }
     for (const int samples : baseline_samples)
         for (const Measured& m : measured)
-            if (m.configuration == baseline_with(samples)) {
+            if (m.configuration == baseline_with(samples) && samples == 1 && !all_baselines)
+                panel.title += fmt::format("  (baseline off the chart: {:.3g} at {:.3g})", m.error, m.time);
+            else if (m.configuration == baseline_with(samples) && all_baselines) {
                 baseline.points.push_back(point_of(m));
                 baseline.labels.push_back(samples == 1 ? "baseline" : fmt::format("{}", samples));
             }
