@@ -188,6 +188,11 @@ void tradeoff_options(CLI::App* tradeoff, Arguments& arguments) {
                          "Folder for tradeoff.csv, charts and references; made where it is missing");
     tradeoff->add_flag("--resume", arguments.resume,
                        "Go on with the rows in --out that this very program wrote, asked the same");
+    tradeoff->add_flag("--report", arguments.report,
+                       "Measure nothing: tables and charts of the rows in --out again");
+    tradeoff->add_option(
+        "--write-front", arguments.write_front,
+        "Write the front for the slider and the governor; the program's is assets/front.json");
     tradeoff->add_option("--configurations", arguments.configurations, "At most so many (200; --quick: 16)")
         ->check(CLI::Range(1, 200));
     tradeoff

@@ -36,7 +36,8 @@ struct Arguments {
     std::vector<int> bench_sides_vox{128, 256, 512};
     int repeats = 5;
     // Of `tradeoff`; its scenes are `scenarios`.
-    bool quick = false, resume = false;
+    bool quick = false, resume = false, report = false;
+    std::string write_front;
     int configurations = 0, reference_samples = 0;  // 0: by --quick
 };
 

@@ -34,6 +34,7 @@ constexpr SceneChoice scene_choices[] = {{"lake", 0}, {"waterfall", 200}, {"gall
 // Timed beside one `balanced` in turn.
 constexpr std::size_t batch_size = 8;
 constexpr int chart_scale = 2;
+constexpr int front_points_max = 12;
 
 std::uint64_t hash_of_text(std::string_view text, std::uint64_t hash) {
     for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ull;
@@ -225,11 +226,38 @@ std::vector<std::string> tradeoff_scenes() {
     return names;
 }
 
+namespace {
+
+void report(const Arguments& arguments, std::span<const TradeoffRow> rows, const std::string& about) {
+    fmt::print("\n{}\n{}\n", tradeoff_text(rows), bars_text(tradeoff_bars(rows)));
+    for (const std::string& line : beaten_qualities(rows)) fmt::print("{}\n", line);
+    if (!arguments.out.empty()) write_charts(arguments.out, rows, about);
+    if (arguments.write_front.empty()) return;
+    const auto points = front_points(rows, front_points_max);
+    if (points.empty()) fail("--write-front: no configuration is eligible; sample the references longer");
+    write_file(arguments.write_front, front_json(points, fmt::format("tarn tradeoff, {}", about)));
+    fmt::print("{}: {} points\n", arguments.write_front, points.size());
+}
+
+int report_again(const Arguments& arguments) {
+    const fs::path csv = fs::path(arguments.out) / "tradeoff.csv";
+    int others = 0;
+    const auto rows = read_tradeoff_csv(read_text_file(csv), csv.string(), "", others);
+    if (rows.empty()) fail("{}: no rows", csv.string());
+    report(arguments, rows, "as measured before");
+    return 0;
+}
+
+}  // namespace
+
 int run_tradeoff_command(const Arguments& arguments) {
     std::string scenes = arguments.scenarios;
     if (scenes.empty() && arguments.quick) scenes = "lake";
     const auto names = names_of("--scene", scenes, tradeoff_scenes());
     if (arguments.resume && arguments.out.empty()) fail("--resume: of the rows in a folder; give --out too");
+    if (arguments.report && arguments.out.empty()) fail("--report: of the rows in a folder; give --out too");
+    if (!arguments.write_front.empty()) check_writable(arguments.write_front);
+    if (arguments.report) return report_again(arguments);
     if (!arguments.out.empty()) make_folder(arguments.out, {"tradeoff.svg"});
     const auto platform = make_headless({1, 1}, 0);
     fmt::print("rendered by {}; errors at 160x90, times at 640x360\n", gl::driver_info().renderer);
@@ -238,9 +266,7 @@ int run_tradeoff_command(const Arguments& arguments) {
     LightTrade trade(arguments, names);
     trade.run();
     const auto& rows = trade.rows();
-    fmt::print("\n{}\n{}\n", tradeoff_text(rows), bars_text(tradeoff_bars(rows)));
-    for (const std::string& line : beaten_qualities(rows)) fmt::print("{}\n", line);
-    if (!arguments.out.empty()) write_charts(arguments.out, rows, gl::driver_info().renderer);
+    report(arguments, rows, gl::driver_info().renderer);
     return std::any_of(rows.begin(), rows.end(), [](const auto& row) { return row.rejected > 0; }) ? 1 : 0;
 }
 

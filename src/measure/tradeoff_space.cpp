@@ -129,26 +129,25 @@ Configuration parse_configuration(const std::string& text) {
     return configuration_of(settings);
 }
 
-std::string label_of(const Configuration& configuration) {
+Nearest nearest_quality(const Configuration& configuration) {
     const auto keys = preset_keys();
-    const auto qualities = choice_names<Quality>();
     const Configuration wanted = canonical(configuration);
-    std::optional<std::string> best;
-    std::size_t fewest = std::numeric_limits<std::size_t>::max();
-    for (std::size_t q = 0; q < qualities.size(); ++q) {
-        if (static_cast<Quality>(q) == Quality::Exact) continue;
-        const Configuration base = canonical(configuration_of(static_cast<Quality>(q)));
-        std::string label = qualities[q];
-        std::size_t differ = 0;
-        for (std::size_t i = 0; i < keys.size(); ++i) {
-            if (wanted.values[i] == base.values[i]) continue;
-            ++differ;
-            label += fmt::format(" {}={}", keys[i], wanted.values[i]);
-        }
-        if (differ < fewest) best = label;
-        fewest = std::min(fewest, differ);
+    std::optional<Nearest> best;
+    for (const Quality quality : {Quality::Baseline, Quality::Fast, Quality::Balanced, Quality::Quality}) {
+        const Configuration base = canonical(configuration_of(quality));
+        Nearest nearest{.quality = quality, .differs = {}};
+        for (std::size_t i = 0; i < keys.size(); ++i)
+            if (wanted.values[i] != base.values[i])
+                nearest.differs.push_back(fmt::format("{}={}", keys[i], wanted.values[i]));
+        if (!best || nearest.differs.size() < best->differs.size()) best = nearest;
     }
     return *best;
+}
+
+std::string label_of(const Configuration& configuration) {
+    const Nearest nearest = nearest_quality(configuration);
+    return fmt::format("{}{}{}", choice_names<Quality>()[static_cast<std::size_t>(nearest.quality)],
+                       nearest.differs.empty() ? "" : " ", fmt::join(nearest.differs, " "));
 }
 
 std::vector<Configuration> neighbours_of(const Configuration& configuration) {

@@ -30,6 +30,12 @@ void apply(const Configuration& configuration, Settings& settings);
 std::string text_of(const Configuration& configuration);
 Configuration parse_configuration(const std::string& text);
 
+// The quality that it differs least from, and the key=value of what differs.
+struct Nearest {
+    Quality quality = Quality::Balanced;
+    std::vector<std::string> differs;
+};
+Nearest nearest_quality(const Configuration& configuration);
 // The name of a quality, or that of the nearest and what differs from it: "balanced history_cap=96".
 std::string label_of(const Configuration& configuration);
 

@@ -58,6 +58,12 @@ std::vector<TradeoffRow> read_tradeoff_csv(const std::string& text, const std::s
     others = 0;
     std::vector<TradeoffRow> rows;
     if (text.empty()) return rows;
+    std::string wanted = program;
+    if (wanted.empty()) {
+        const std::size_t last_end = text.rfind('\n');
+        const std::size_t last = last_end == 0 ? 0 : text.rfind('\n', last_end - 1);
+        if (last != std::string::npos) wanted = text.substr(last + 1, text.find(',', last) - last - 1);
+    }
     std::size_t begin = text.find('\n');
     const bool known = begin != std::string::npos && text.substr(0, begin + 1) == tradeoff_csv_head();
     if (!known)
@@ -68,7 +74,7 @@ std::vector<TradeoffRow> read_tradeoff_csv(const std::string& text, const std::s
         if (end == std::string::npos) break;  // cut short
         const auto parts = parts_of(text.substr(begin, end - begin));
         begin = end + 1;
-        if (parts.size() != std::size(columns) || parts[0] != program) {
+        if (parts.size() != std::size(columns) || parts[0] != wanted) {
             ++others;
             continue;
         }
@@ -156,6 +162,48 @@ std::optional<double> Curve::time_for(double error) const {
     const Measured& last = points.back();
     if (error <= bias || last.error <= bias) return std::nullopt;
     return last.time * (last.error - bias) / (error - bias);
+}
+
+std::vector<FrontPoint> front_points(std::span<const TradeoffRow> rows, int points_max) {
+    const std::vector<Measured> measured = over_all(rows);
+    struct Candidate {
+        Measured measured;
+        Nearest nearest;
+        bool kept;
+    };
+    std::vector<Candidate> candidates;
+    for (const std::size_t i : pareto_front(measured)) {
+        const Nearest nearest = nearest_quality(measured[i].configuration);
+        candidates.push_back({measured[i], nearest, nearest.differs.empty()});
+    }
+    if (candidates.empty()) return {};
+    candidates.front().kept = candidates.back().kept = true;
+    const auto kept = [&] {
+        return std::count_if(candidates.begin(), candidates.end(), [](const Candidate& c) { return c.kept; });
+    };
+    while (kept() < std::min<std::ptrdiff_t>(points_max, std::ssize(candidates))) {
+        Candidate* farthest = nullptr;
+        double distance = -1;
+        for (Candidate& c : candidates) {
+            if (c.kept) continue;
+            double nearest = 1e300;
+            for (const Candidate& other : candidates)
+                if (other.kept)
+                    nearest = std::min(nearest, std::abs(logarithm(c.measured.time / other.measured.time)));
+            if (nearest <= distance) continue;
+            distance = nearest;
+            farthest = &c;
+        }
+        farthest->kept = true;
+    }
+    std::vector<FrontPoint> points;
+    for (const Candidate& c : candidates)
+        if (c.kept)
+            points.push_back({.quality = c.nearest.quality,
+                              .set = c.nearest.differs,
+                              .time = c.measured.time,
+                              .error = c.measured.error});
+    return points;
 }
 
 Configuration baseline_with(int samples) {

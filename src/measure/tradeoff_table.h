@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/front.h"
 #include "measure/tradeoff_space.h"
 
 namespace tarn {
@@ -28,8 +29,9 @@ struct TradeoffRow {
 
 std::string tradeoff_csv_head();
 std::string tradeoff_csv_line(const TradeoffRow& row);
-// Rows of `program` alone; a line cut short, as by an interrupted run, is left out. `others`: rows of other
-// programs. Throws Error naming `origin` where it is no such file.
+// Rows of `program` alone, of the last row's program where it is empty; a line cut short, as by an
+// interrupted run, is left out. `others`: rows of other programs. Throws Error naming `origin` where it is no
+// such file.
 std::vector<TradeoffRow> read_tradeoff_csv(const std::string& text, const std::string& origin,
                                            const std::string& program, int& others);
 
@@ -71,6 +73,10 @@ std::vector<std::string> beaten_qualities(std::span<const TradeoffRow> rows);
 
 std::string tradeoff_text(std::span<const TradeoffRow> rows);  // the front, the qualities and what beats them
 std::string bars_text(std::span<const TradeoffBar> bars);
+
+// The front over all scenes for the slider: at most `points_max` of its points, the ends and those that are
+// qualities first, then those farthest from their neighbours in time.
+std::vector<FrontPoint> front_points(std::span<const TradeoffRow> rows, int points_max);
 
 // `baseline` with so many samples.
 Configuration baseline_with(int samples);
