@@ -29,7 +29,8 @@ constexpr Suite suites[] = {{"rays", run_rays_suite},
                             {"frame", run_frame_suite},
                             {"sim", run_sim_suite},
                             {"edit", run_edit_suite},
-                            {"start", run_start_suite}};
+                            {"start", run_start_suite},
+                            {"variants", run_variants_suite}};
 
 std::vector<BenchFigure> read_figures(const std::string& path) {
     return read_bench_json(read_text_file(path), path);
