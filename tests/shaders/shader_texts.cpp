@@ -25,7 +25,7 @@ const std::map<std::string, std::vector<std::string>> numbers = {
 
 // Macros that the passes define only together with another.
 const std::map<std::string, std::string> needs = {
-    {"TRACE_ROUGH", "TRACE_CLEAR"}, {"TRACE_SMOOTH_WATER", "TRACE_CLEAR"}, {"TRACE_METAL", "TRACE_COATED"}};
+    {"TRACE_ROUGH", "TRACE_CLEAR"}, {"TRACE_SMOOTH_WATER", "TRACE_CLEAR"}};
 
 bool is_made(const Defines& defines) {
     const auto defined = [&](const std::string& name) {
