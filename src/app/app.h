@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/camera.h"
+#include "app/governor.h"
 #include "app/panels.h"
 #include "app/renderer.h"
 #include "app/simulation.h"
@@ -53,6 +54,7 @@ class App {
   private:
     void poll_shaders();
     void change_settings(const Input& input, Actions& actions);
+    void govern(const Input& input);
     void run_actions(const Actions& actions);
     Pick pick(glm::ivec2 size_px, glm::vec2 at_px, bool through_water);
     void edit(const Input& input);
@@ -77,6 +79,7 @@ class App {
     Tools tools_;
     TickClock clock_;
     Panels panels_;
+    Governor governor_;
     std::vector<SceneSummary> scenes_;  // read when first shown
 
     bool look_toggled_ = false;

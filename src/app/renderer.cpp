@@ -102,7 +102,6 @@ TraceShapes Renderer::Parts::shapes(const Simulation& simulation) const {
     const FrameTargets& frame = targets->frames[0];
     return {.cells = simulation.cells().small_like(),
             .brick_distance = simulation.brick_distance().small_like(),
-            .brick_changed = simulation.brick_changed().small_like(),
             .albedo_table = albedo.dielectric.small_like(),
             .metal_albedo_table = albedo.metal.small_like(),
             .glass_albedo_table = albedo.glass.small_like(),
@@ -175,7 +174,7 @@ void Renderer::Parts::upload_frame(const Simulation& simulation, const Settings&
 void Renderer::Parts::update_emitters(const Simulation& simulation) {
     built(emitters, bricks_of(simulation.size_vox()))
         .record({.cells = simulation.cells(),
-                 .brick_changed = simulation.brick_changed(),
+                 .changes = simulation.changes(),
                  .version = static_cast<std::uint32_t>(simulation.version())},
                 timers);
 }

@@ -85,9 +85,9 @@ void TracePass::rehearse(const TraceShapes& shapes) const {
          target);
     if (features_.emitters) {
         gl::Timers timers;
-        const gl::Texture brick_changed(shapes.brick_changed);
-        EmittersPass(glm::ivec3(2))
-            .record({.cells = cells, .brick_changed = brick_changed, .version = 1}, timers);
+        const glm::ivec3 size_bricks{2};
+        EmittersPass(size_bricks)
+            .record({.cells = cells, .changes = ChangeLog(size_bricks), .version = 1}, timers);
         timers.finish();
     }
     glFinish();

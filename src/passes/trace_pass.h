@@ -28,8 +28,7 @@ struct TraceFeatures {
 
 // What a driver's code for the pass may depend on beside its features.
 struct TraceShapes {
-    gl::TextureDesc cells, brick_distance, brick_changed, albedo_table, metal_albedo_table,
-        glass_albedo_table;
+    gl::TextureDesc cells, brick_distance, albedo_table, metal_albedo_table, glass_albedo_table;
     std::array<gl::TextureDesc, 4> targets;  // radiance, position, normal, material
 };
 
