@@ -16,6 +16,7 @@ namespace tarn {
 namespace {
 
 constexpr double poll_interval_s = 0.5;
+constexpr double error_interval_s = 0.5;
 constexpr double message_s = 5;
 constexpr double rate_window_s = 0.5;
 
@@ -130,10 +131,15 @@ const gl::Texture& App::frame(const Input& input) {
     if (interactive) edit(input);
     advance(input);
 
+    renderer_->keep_variance(interactive && settings_.overlay);
     const gl::Texture& picture = renderer_->render(*simulation_, settings_, input.size_px);
     rendered_ = settings_;
     ++frames_;
     if (actions.screenshot) write_screenshot();
+    if (interactive && settings_.overlay && now_s() >= next_error_s_) {
+        renderer_->measure_error();
+        next_error_s_ = now_s() + error_interval_s;
+    }
     timers_.end_frame();
     if (interactive) simulation_->refresh_census(now_s());
     if (interactive) draw_overlays(input);
@@ -283,6 +289,7 @@ void App::draw_overlays(const Input& input) {
                       .census = simulation_->recent_census(),
                       .active_bricks = simulation_->recent_active_bricks(),
                       .samples = renderer_->samples(),
+                      .error = renderer_->estimated_error(false),
                       .rejected_samples = rejected_samples_,
                       .brush = tools_.brush});
     if (settings_.view != ViewKind::Picture) draw_legend(settings_.view);

@@ -181,6 +181,9 @@ void bench_options(CLI::App* bench, Arguments& arguments) {
 void tradeoff_options(CLI::App* tradeoff, Arguments& arguments) {
     tradeoff->add_flag("--quick", arguments.quick,
                        "One scene and few configurations: minutes in place of hours");
+    tradeoff->add_option(
+        "--part", arguments.suites,
+        fmt::format("Parts, separated by commas (all): {}", fmt::join(tradeoff_parts(), ", ")));
     tradeoff->add_option("--scene", arguments.scenarios,
                          fmt::format("Scenes, separated by commas (all; --quick: lake): {}",
                                      fmt::join(tradeoff_scenes(), ", ")));

@@ -12,9 +12,9 @@ namespace tarn {
 
 namespace {
 
-constexpr const char* columns[] = {"program",           "scene",    "recording", "label", "time_ms",
-                                   "time_ratio",        "error",    "bias",      "floor", "near_floor",
-                                   "reference_samples", "rejected", "settings"};
+constexpr const char* columns[] = {
+    "program", "scene", "recording",  "label",     "time_ms",           "time_ratio", "error",
+    "bias",    "floor", "near_floor", "predicted", "reference_samples", "rejected",   "settings"};
 
 using Place = std::pair<std::string, std::string>;  // scene, recording
 
@@ -48,9 +48,10 @@ std::string tradeoff_csv_head() {
 }
 
 std::string tradeoff_csv_line(const TradeoffRow& r) {
-    return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", r.program, r.scene, r.recording,
+    return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", r.program, r.scene, r.recording,
                        label_of(r.configuration), r.time_ms, r.time_ratio, r.error, r.bias, r.floor,
-                       r.near_floor() ? 1 : 0, r.reference_samples, r.rejected, text_of(r.configuration));
+                       r.near_floor() ? 1 : 0, r.predicted, r.reference_samples, r.rejected,
+                       text_of(r.configuration));
 }
 
 std::vector<TradeoffRow> read_tradeoff_csv(const std::string& text, const std::string& origin,
@@ -82,14 +83,15 @@ std::vector<TradeoffRow> read_tradeoff_csv(const std::string& text, const std::s
             rows.push_back({.program = parts[0],
                             .scene = parts[1],
                             .recording = parts[2],
-                            .configuration = parse_configuration(parts[12]),
+                            .configuration = parse_configuration(parts[13]),
                             .time_ms = std::stod(parts[4]),
                             .time_ratio = std::stod(parts[5]),
                             .error = std::stod(parts[6]),
                             .bias = std::stod(parts[7]),
                             .floor = std::stod(parts[8]),
-                            .reference_samples = std::stoi(parts[10]),
-                            .rejected = std::stoull(parts[11])});
+                            .predicted = std::stod(parts[10]),
+                            .reference_samples = std::stoi(parts[11]),
+                            .rejected = std::stoull(parts[12])});
         } catch (const std::exception&) {
             ++others;
         }
@@ -126,10 +128,17 @@ std::vector<Measured> over_all(std::span<const TradeoffRow> rows) {
 
 std::vector<Measured> of_place(std::span<const TradeoffRow> rows, const std::string& scene,
                                const std::string& recording) {
+    // Batches ran under different loads of the machine: by ratios to `balanced`, whose own time is one of
+    // them.
+    double balanced_ms = 1;
+    const Configuration balanced = configuration_of(Quality::Balanced);
+    for (const TradeoffRow& row : rows)
+        if (row.scene == scene && row.configuration == balanced) balanced_ms = row.time_ms;
     std::vector<Measured> measured;
     for (const TradeoffRow& row : rows)
         if (row.scene == scene && row.recording == recording)
-            measured.push_back({row.configuration, row.time_ms, row.error, !row.near_floor()});
+            measured.push_back(
+                {row.configuration, balanced_ms * row.time_ratio, row.error, !row.near_floor()});
     return measured;
 }
 
@@ -165,6 +174,8 @@ std::optional<double> Curve::time_for(double error) const {
 }
 
 std::vector<FrontPoint> front_points(std::span<const TradeoffRow> rows, int points_max) {
+    // Nearer points differ by less than times are measured to.
+    const double step_min = std::log(1.1);
     const std::vector<Measured> measured = over_all(rows);
     struct Candidate {
         Measured measured;
@@ -194,6 +205,7 @@ std::vector<FrontPoint> front_points(std::span<const TradeoffRow> rows, int poin
             distance = nearest;
             farthest = &c;
         }
+        if (distance < step_min) break;
         farthest->kept = true;
     }
     std::vector<FrontPoint> points;
@@ -301,20 +313,44 @@ std::vector<std::string> beaten_qualities(std::span<const TradeoffRow> rows) {
     return lines;
 }
 
+std::string front_letter(std::size_t index) {
+    return index < 26 ? std::string(1, static_cast<char>('a' + index)) : std::string();
+}
+
 std::string tradeoff_text(std::span<const TradeoffRow> rows) {
     const std::vector<Measured> measured = over_all(rows);
     std::string text = fmt::format(
-        "Over all scenes and recordings (geometric means; time as a ratio to balanced):\n{:>8} {:>10}   {}\n",
+        "Over all scenes and recordings (geometric means; time as a ratio to balanced):\n  {:>8} {:>10}   "
+        "{}\n",
         "time", "relMSE", "front, from fast to accurate");
-    for (const std::size_t i : pareto_front(measured))
-        text += fmt::format("{:>8.3f} {:>10.4g}   {}\n", measured[i].time, measured[i].error,
-                            label_of(measured[i].configuration));
-    text += fmt::format("{:>8} {:>10}   qualities\n", "time", "relMSE");
+    const auto on_front = pareto_front(measured);
+    for (std::size_t i = 0; i < on_front.size(); ++i) {
+        const Measured& m = measured[on_front[i]];
+        text += fmt::format("{:<1} {:>8.3f} {:>10.4g}   {}\n", front_letter(i), m.time, m.error,
+                            label_of(m.configuration));
+    }
+    text += fmt::format("  {:>8} {:>10}   qualities\n", "time", "relMSE");
     for (const Measured& m : measured)
         for (const Quality q : {Quality::Baseline, Quality::Fast, Quality::Balanced, Quality::Quality})
             if (m.configuration == configuration_of(q))
-                text += fmt::format("{:>8.3f} {:>10.4g}   {}{}\n", m.time, m.error, label_of(m.configuration),
-                                    m.eligible ? "" : "  (a row within 3 times its floor)");
+                text +=
+                    fmt::format("  {:>8.3f} {:>10.4g}   {}{}\n", m.time, m.error, label_of(m.configuration),
+                                m.eligible ? "" : "  (a row within 3 times its floor)");
+    return text;
+}
+
+std::string fronts_text(std::span<const TradeoffRow> rows) {
+    std::string text;
+    for (const auto& [scene, recording] : places_of(rows)) {
+        const std::vector<Measured> measured = of_place(rows, scene, recording);
+        text += fmt::format("{} {}:\n  {:>9} {:>10}\n", scene, recording, "ms", "relMSE");
+        const auto on_front = pareto_front(measured);
+        for (std::size_t i = 0; i < on_front.size(); ++i) {
+            const Measured& m = measured[on_front[i]];
+            text += fmt::format("{:<1} {:>9.1f} {:>10.4g}   {}\n", front_letter(i), m.time, m.error,
+                                label_of(m.configuration));
+        }
+    }
     return text;
 }
 
