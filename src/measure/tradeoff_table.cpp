@@ -173,51 +173,6 @@ std::optional<double> Curve::time_for(double error) const {
     return last.time * (last.error - bias) / (error - bias);
 }
 
-std::vector<FrontPoint> front_points(std::span<const TradeoffRow> rows, int points_max) {
-    // Nearer points differ by less than times are measured to.
-    const double step_min = std::log(1.1);
-    const std::vector<Measured> measured = over_all(rows);
-    struct Candidate {
-        Measured measured;
-        Nearest nearest;
-        bool kept;
-    };
-    std::vector<Candidate> candidates;
-    for (const std::size_t i : pareto_front(measured)) {
-        const Nearest nearest = nearest_quality(measured[i].configuration);
-        candidates.push_back({measured[i], nearest, nearest.differs.empty()});
-    }
-    if (candidates.empty()) return {};
-    candidates.front().kept = candidates.back().kept = true;
-    const auto kept = [&] {
-        return std::count_if(candidates.begin(), candidates.end(), [](const Candidate& c) { return c.kept; });
-    };
-    while (kept() < std::min<std::ptrdiff_t>(points_max, std::ssize(candidates))) {
-        Candidate* farthest = nullptr;
-        double distance = -1;
-        for (Candidate& c : candidates) {
-            if (c.kept) continue;
-            double nearest = 1e300;
-            for (const Candidate& other : candidates)
-                if (other.kept)
-                    nearest = std::min(nearest, std::abs(logarithm(c.measured.time / other.measured.time)));
-            if (nearest <= distance) continue;
-            distance = nearest;
-            farthest = &c;
-        }
-        if (distance < step_min) break;
-        farthest->kept = true;
-    }
-    std::vector<FrontPoint> points;
-    for (const Candidate& c : candidates)
-        if (c.kept)
-            points.push_back({.quality = c.nearest.quality,
-                              .set = c.nearest.differs,
-                              .time = c.measured.time,
-                              .error = c.measured.error});
-    return points;
-}
-
 Configuration baseline_with(int samples) {
     Settings settings;
     apply_quality(settings, Quality::Baseline);
@@ -287,7 +242,6 @@ std::string bars_text(std::span<const TradeoffBar> bars) {
 }
 
 std::vector<std::string> beaten_qualities(std::span<const TradeoffRow> rows) {
-    constexpr double margin = 1.1;
     std::vector<std::string> lines;
     const auto look = [&](const std::string& where, const std::vector<Measured>& measured) {
         for (const Quality quality : {Quality::Fast, Quality::Balanced, Quality::Quality}) {
@@ -298,7 +252,9 @@ std::vector<std::string> beaten_qualities(std::span<const TradeoffRow> rows) {
             if (mine == measured.end()) continue;
             const Measured* best = nullptr;
             for (const Measured& m : measured) {
-                if (!m.eligible || m.time * margin > mine->time || m.error * margin > mine->error) continue;
+                if (!m.eligible || m.time * beaten_factor > mine->time ||
+                    m.error * beaten_factor > mine->error)
+                    continue;
                 if (best == nullptr || m.time * m.error < best->time * best->error) best = &m;
             }
             if (best != nullptr)

@@ -13,6 +13,8 @@ namespace tarn {
 
 // A row within this factor of its reference's own error chooses nothing.
 constexpr double floor_factor = 3;
+// What beats another by less than this in time or in error may do so by chance.
+constexpr double beaten_factor = 1.1;
 
 struct TradeoffRow {
     std::string program;  // hash of the program and of what was asked of it: rows of another are not mixed in
@@ -78,8 +80,9 @@ std::string tradeoff_text(std::span<const TradeoffRow> rows);  // the front over
 std::string fronts_text(std::span<const TradeoffRow> rows);    // that of each scene and recording
 std::string bars_text(std::span<const TradeoffBar> bars);
 
-// The front over all scenes for the slider: at most `points_max` of its points, the ends and those that are
-// qualities first, then those farthest from their neighbours in time.
+// The front over all scenes for the slider: at most `points_max` points, the ends and the qualities that
+// nothing beats by beaten_factor first, then those farthest from their neighbours in time. A quality takes
+// the place of front points of about its time.
 std::vector<FrontPoint> front_points(std::span<const TradeoffRow> rows, int points_max);
 
 // `baseline` with so many samples.
