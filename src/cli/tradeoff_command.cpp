@@ -43,6 +43,10 @@ std::uint64_t hash_of_text(std::string_view text, std::uint64_t hash) {
     return hash;
 }
 
+glm::ivec2 time_size(const Arguments& arguments) {
+    return arguments.size_px == glm::ivec2(0) ? TradeoffOptions().time_px : arguments.size_px;
+}
+
 // Of all that a row follows from besides its configuration: this program, its shaders, the driver, the
 // options.
 std::string program_hash(const TradeoffOptions& options) {
@@ -50,7 +54,9 @@ std::string program_hash(const TradeoffOptions& options) {
     for (const std::string& path : list_assets("")) hash = hash_of_text(read_asset(path), hash);
     const gl::DriverInfo driver = gl::driver_info();
     hash = hash_of_text(driver.renderer + driver.version, hash);
-    hash = hash_of_text(fmt::format("{} {}", options.frame_stride, options.rounds), hash);
+    hash = hash_of_text(fmt::format("{} {} {}x{}", options.frame_stride, options.rounds, options.time_px.x,
+                                    options.time_px.y),
+                        hash);
     return fmt::format("{:016x}", hash);
 }
 
@@ -83,6 +89,8 @@ class LightTrade {
 
 LightTrade::LightTrade(const Arguments& arguments, const std::vector<std::string>& scenes)
     : arguments_(arguments) {
+    options_.time_px = time_size(arguments);
+    options_.error_px = glm::max(options_.time_px / 4, 1);
     if (arguments.quick) options_.frame_stride = 4;
     if (arguments.quick) options_.rounds = 3;
     if (!arguments.out.empty()) {
@@ -322,7 +330,9 @@ int run_tradeoff_command(const Arguments& arguments) {
     if (arguments.report) return report_again(arguments);
     if (!arguments.out.empty()) make_folder(arguments.out, {"tradeoff.svg"});
     const auto platform = make_headless({1, 1}, 0);
-    fmt::print("rendered by {}; errors at 160x90, times at 640x360\n", gl::driver_info().renderer);
+    const glm::ivec2 size = time_size(arguments);
+    fmt::print("rendered by {}; times at {}x{}, errors at {}x{}\n", gl::driver_info().renderer, size.x,
+               size.y, std::max(size.x / 4, 1), std::max(size.y / 4, 1));
     std::fflush(stdout);
 
     const auto asked = [&](const char* part) {
