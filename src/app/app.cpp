@@ -198,6 +198,7 @@ void App::change_settings(const Input& input, Actions& actions) {
                   .paused = clock_.paused(),
                   .can_undo = history_.can_undo(),
                   .can_redo = history_.can_redo(),
+                  .recording = recorder_.is_on(),
                   .expected_ms = governor_.expected_ms(front_point(settings_.tradeoff))},
                  actions);
     if (!same_camera(before, settings_)) renderer_->reset_history();  // a jump, not a flight
@@ -221,6 +222,7 @@ void App::run_actions(const Actions& actions) {
     } catch (const Error& error) {
         say(error.what());
     }
+    if (actions.record) start_or_stop_recording();
     if (!actions.undo && !actions.redo) return;
     tools_.end_stroke();
     if (const auto changes = actions.undo ? history_.undo() : history_.redo()) simulation_->write(*changes);
@@ -243,6 +245,7 @@ void App::edit(const Input& input) {
         tools_.use(input, picked, {view.eye_vox(), view.dir_through(at_px)}, simulation_->tick());
     if (stroke.begins) history_.begin_stroke();
     for (const Edit& e : stroke.edits) simulation_->apply(e, history_);
+    frame_edits_ = stroke.edits;
     if (tools_.aim()) {
         const Brush& brush = tools_.brush;
         draw_outline(view, brush, *tools_.aim(), tools_.removing(), outline_color(brush));
@@ -262,6 +265,8 @@ void App::advance(const Input& input) {
         if (ticks == 0 || clock_.paused()) ticks = by_clock;
     }
     simulation_->step(ticks, settings_);
+    recorder_.add_frame(settings_, frame_edits_, ticks);
+    frame_edits_.clear();
     rate_ticks_ += static_cast<std::uint64_t>(ticks);
     const double since_s = now_s() - rate_start_s_;
     if (since_s < rate_window_s) return;

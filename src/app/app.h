@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/camera.h"
+#include "app/flight_recorder.h"
 #include "app/governor.h"
 #include "app/panels.h"
 #include "app/renderer.h"
@@ -61,6 +62,7 @@ class App {
     void advance(const Input& input);
     void draw_overlays(const Input& input);
     void write_screenshot();
+    void start_or_stop_recording();
     void say(const std::string& text);
     void set_captured(bool captured);
     void set_title();
@@ -78,6 +80,8 @@ class App {
     TickClock clock_;
     Panels panels_;
     Governor governor_;
+    FlightRecorder recorder_;
+    std::vector<Edit> frame_edits_;     // of this frame
     std::vector<SceneSummary> scenes_;  // read when first shown
 
     bool look_toggled_ = false;
