@@ -4,5 +4,7 @@
 
 #define ERROR_GROUPS 64
 #define ERROR_LANES 256
+// Pixels looked at, at most about.
+#define ERROR_PIXELS 32768
 
 #endif

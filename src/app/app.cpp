@@ -17,6 +17,7 @@ namespace {
 
 constexpr double poll_interval_s = 0.5;
 constexpr double error_interval_s = 0.5;
+constexpr std::uint64_t error_interval_frames = 16;  // of slow ones: it costs part of a frame
 constexpr double message_s = 5;
 constexpr double rate_window_s = 0.5;
 
@@ -136,9 +137,10 @@ const gl::Texture& App::frame(const Input& input) {
     rendered_ = settings_;
     ++frames_;
     if (actions.screenshot) write_screenshot();
-    if (interactive && settings_.overlay && now_s() >= next_error_s_) {
+    if (interactive && settings_.overlay && now_s() >= next_error_s_ && frames_ >= next_error_frame_) {
         renderer_->measure_error();
         next_error_s_ = now_s() + error_interval_s;
+        next_error_frame_ = frames_ + error_interval_frames;
     }
     timers_.end_frame();
     if (interactive) simulation_->refresh_census(now_s());

@@ -90,6 +90,7 @@ class App {
     double message_until_s_ = 0;
     double next_poll_s_ = 0;
     double next_error_s_ = 0;
+    std::uint64_t next_error_frame_ = 0;
     std::uint64_t frames_ = 0;
     std::uint64_t rejected_samples_ = 0;
     double frame_ms_ = 0;  // smoothed
