@@ -76,8 +76,11 @@ App::App(Scene scene, const Settings& settings, Options options)
       scene_(std::move(scene)),
       settings_(settings),
       rendered_(settings),
+      trace_programs_(options.interactive && options.platform != nullptr
+                          ? options.platform->make_shared_context()
+                          : nullptr),
       simulation_(std::make_unique<Simulation>(scene_, timers_)),
-      renderer_(std::make_unique<Renderer>(scene_, timers_)),
+      renderer_(std::make_unique<Renderer>(scene_, timers_, &trace_programs_)),
       governor_(front_times()) {
     set_title();
 }
@@ -102,7 +105,7 @@ void App::load(const std::string& name_or_path) {
     apply_quality(base, Quality::Balanced);
     Scene scene = load_scene(name_or_path, base);
     auto simulation = std::make_unique<Simulation>(scene, timers_);
-    auto renderer = std::make_unique<Renderer>(scene, timers_);
+    auto renderer = std::make_unique<Renderer>(scene, timers_, &trace_programs_);
     scene_ = std::move(scene);
     simulation_ = std::move(simulation);
     renderer_ = std::move(renderer);

@@ -16,6 +16,7 @@
 #include "app/tick_clock.h"
 #include "app/tools.h"
 #include "gl/timers.h"
+#include "passes/trace_programs.h"
 #include "platform/platform.h"
 
 namespace tarn {
@@ -73,6 +74,7 @@ class App {
     Scene scene_;
     Settings settings_;
     Settings rendered_;  // of the last frame: what changed since may restart the history
+    TracePrograms trace_programs_;
     std::unique_ptr<Simulation> simulation_;
     std::unique_ptr<Renderer> renderer_;
     EditHistory history_;

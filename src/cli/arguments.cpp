@@ -234,7 +234,10 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
     std::string size;
     CLI::App app{"Tarn: a path-traced voxel sandbox with water as its heart.", "tarn"};
     app.require_subcommand(1);
-    app.footer("Exit codes: 0; 1 a check failed; 2 bad input. `tarn COMMAND --help` explains a command.");
+    app.footer(
+        "Exit codes: 0; 1 a check failed; 2 bad input. `tarn COMMAND --help` explains a command.\n"
+        "Compiled programs are kept in $XDG_CACHE_HOME/tarn or ~/.cache/tarn, at most 64 MiB; "
+        "TARN_PROGRAM_CACHE=off keeps and reads none.");
     app.set_version_flag("--version", TARN_VERSION);
 
     const auto scene_options = [&](CLI::App* command, bool required) {

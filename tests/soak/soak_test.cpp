@@ -1,14 +1,17 @@
 // The long runs, by their own command: ctest -C soak -L soak. Of conservation_test: 10,000 ticks of every
-// built-in scene, a minute or so a scene without a GPU. Of extremes_history_test: a million frames of exact
+// built-in scene, a minute or so a scene without a GPU; and the same beside the CPU reference. Of extremes_history_test: a million frames of exact
 // mode's mean.
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 
 #include "gpu/accumulator.h"
 #include "gpu/conservation.h"
 #include "gpu/gl_test.h"
+#include "gpu/worlds.h"
+#include "reference/simulation.h"
 
 namespace tarn {
 namespace {
@@ -30,6 +33,30 @@ TEST_F(SoakTest, every_scene_keeps_its_water_and_sand_for_10000_ticks) {
                    simulation.tick(), now.water_quanta, initial.water_quanta, flow.sprung_water_quanta,
                    flow.drained_water_quanta, now.voxels[MATERIAL_SAND], initial.voxels[MATERIAL_SAND],
                    flow.sprung_sand_voxels, flow.drained_sand_voxels);
+        std::fflush(stdout);
+    }
+}
+
+// Asleep or awake, as the scene would have it. The reference takes most of the time: hours for all scenes.
+TEST_F(SoakTest, every_scene_equals_the_reference_for_10000_ticks) {
+    for (const std::string& name : built_in_scenes()) {
+        SCOPED_TRACE(name);
+        const Scene scene = load_scene(name, Settings{});
+        gl::Timers timers;
+        Simulation simulation(scene, timers);
+        reference::Simulation reference(scene, 0);
+        const auto start = std::chrono::steady_clock::now();
+        for (int tick = 0; tick < 10000; tick += 100) {
+            simulation.step(100, scene.settings);
+            reference.step(100, scene.settings);
+            ASSERT_TRUE(same_cells(simulation.read_cells(), reference.cells())) << "tick " << tick + 100;
+            timers.end_frame();
+        }
+        EXPECT_EQ(simulation.flow_totals().sprung_water_quanta, reference.flow().sprung_water_quanta);
+        EXPECT_EQ(simulation.flow_totals().drained_water_quanta, reference.flow().drained_water_quanta);
+        fmt::print("{:10} tick {}: {} of {} bricks active, {:.0f} s\n", name, simulation.tick(),
+                   simulation.active_bricks(), reference.active_bricks(),
+                   std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
         std::fflush(stdout);
     }
 }

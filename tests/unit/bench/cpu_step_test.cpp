@@ -1,0 +1,42 @@
+// The CPU's step that the benchmark measures against is the reference's, byte for byte.
+#include "bench/cpu_step.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "gpu/worlds.h"
+#include "reference/water_level.h"
+
+namespace tarn {
+namespace {
+
+TEST(CpuStep, equals_the_reference) {
+    for (const glm::ivec3 size :
+         {glm::ivec3(1), glm::ivec3(7, 13, 5), glm::ivec3(61, 37, 45), glm::ivec3(150, 19, 33)})
+        for (const Soup soup : {Soup::AllBytes, Soup::Matter, Soup::Water, Soup::Layers}) {
+            const Cells start = make_soup(size, soup, 7);
+            Cells expected = start;
+            Cells plain = start;
+            Cells avx2 = start;
+            reference::Activity activity(size);
+            activity.set_always_awake(true);
+            CpuStep step{.seed = 11, .film_threshold = 4, .threads = 3};
+            // Across the wrap of the tick; lines lie along axes and along diagonals.
+            for (std::uint32_t tick = 0u - 4u; tick != 5; ++tick) {
+                SCOPED_TRACE(fmt::format("soup {}, tick {}", static_cast<int>(soup), tick));
+                reference::water_level_tick(expected, step.seed, tick, step.film_threshold, activity,
+                                            nullptr);
+                step.vectors = CpuVectors::Plain;
+                cpu_level_tick(plain, tick, step);
+                ASSERT_TRUE(same_cells(plain, expected));
+                step.vectors = CpuVectors::Avx2;
+                if (!has_vectors(step.vectors)) continue;
+                cpu_level_tick(avx2, tick, step);
+                ASSERT_TRUE(same_cells(avx2, expected));
+            }
+            EXPECT_TRUE(size.x == 1 || expected != start);
+        }
+}
+
+}  // namespace
+}  // namespace tarn
