@@ -16,6 +16,8 @@ namespace tarn {
 namespace {
 
 constexpr double poll_interval_s = 0.5;
+constexpr double error_interval_s = 0.5;
+constexpr std::uint64_t error_interval_frames = 16;  // of slow ones: it costs part of a frame
 constexpr double message_s = 5;
 constexpr double rate_window_s = 0.5;
 
@@ -133,10 +135,16 @@ const gl::Texture& App::frame(const Input& input) {
     if (interactive) edit(input);
     advance(input);
 
+    renderer_->keep_variance(interactive && settings_.overlay);
     const gl::Texture& picture = renderer_->render(*simulation_, settings_, input.size_px);
     rendered_ = settings_;
     ++frames_;
     if (actions.screenshot) write_screenshot();
+    if (interactive && settings_.overlay && now_s() >= next_error_s_ && frames_ >= next_error_frame_) {
+        renderer_->measure_error();
+        next_error_s_ = now_s() + error_interval_s;
+        next_error_frame_ = frames_ + error_interval_frames;
+    }
     timers_.end_frame();
     if (interactive) simulation_->refresh_census(now_s());
     if (interactive) draw_overlays(input);
@@ -195,6 +203,7 @@ void App::change_settings(const Input& input, Actions& actions) {
                   .paused = clock_.paused(),
                   .can_undo = history_.can_undo(),
                   .can_redo = history_.can_redo(),
+                  .recording = recorder_.is_on(),
                   .expected_ms = governor_.expected_ms(front_point(settings_.tradeoff))},
                  actions);
     if (!same_camera(before, settings_)) renderer_->reset_history();  // a jump, not a flight
@@ -218,6 +227,7 @@ void App::run_actions(const Actions& actions) {
     } catch (const Error& error) {
         say(error.what());
     }
+    if (actions.record) start_or_stop_recording();
     if (!actions.undo && !actions.redo) return;
     tools_.end_stroke();
     if (const auto changes = actions.undo ? history_.undo() : history_.redo()) simulation_->write(*changes);
@@ -240,6 +250,7 @@ void App::edit(const Input& input) {
         tools_.use(input, picked, {view.eye_vox(), view.dir_through(at_px)}, simulation_->tick());
     if (stroke.begins) history_.begin_stroke();
     for (const Edit& e : stroke.edits) simulation_->apply(e, history_);
+    frame_edits_ = stroke.edits;
     if (tools_.aim()) {
         const Brush& brush = tools_.brush;
         draw_outline(view, brush, *tools_.aim(), tools_.removing(), outline_color(brush));
@@ -259,6 +270,8 @@ void App::advance(const Input& input) {
         if (ticks == 0 || clock_.paused()) ticks = by_clock;
     }
     simulation_->step(ticks, settings_);
+    recorder_.add_frame(settings_, frame_edits_, ticks);
+    frame_edits_.clear();
     rate_ticks_ += static_cast<std::uint64_t>(ticks);
     const double since_s = now_s() - rate_start_s_;
     if (since_s < rate_window_s) return;
@@ -286,6 +299,7 @@ void App::draw_overlays(const Input& input) {
                       .census = simulation_->recent_census(),
                       .active_bricks = simulation_->recent_active_bricks(),
                       .samples = renderer_->samples(),
+                      .error = renderer_->estimated_error(false),
                       .rejected_samples = rejected_samples_,
                       .brush = tools_.brush});
     if (settings_.view != ViewKind::Picture) draw_legend(settings_.view);

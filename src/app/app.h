@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/camera.h"
+#include "app/flight_recorder.h"
 #include "app/governor.h"
 #include "app/panels.h"
 #include "app/renderer.h"
@@ -62,6 +63,7 @@ class App {
     void advance(const Input& input);
     void draw_overlays(const Input& input);
     void write_screenshot();
+    void start_or_stop_recording();
     void say(const std::string& text);
     void set_captured(bool captured);
     void set_title();
@@ -80,6 +82,8 @@ class App {
     TickClock clock_;
     Panels panels_;
     Governor governor_;
+    FlightRecorder recorder_;
+    std::vector<Edit> frame_edits_;     // of this frame
     std::vector<SceneSummary> scenes_;  // read when first shown
 
     bool look_toggled_ = false;
@@ -87,6 +91,8 @@ class App {
     std::string message_, shader_error_;
     double message_until_s_ = 0;
     double next_poll_s_ = 0;
+    double next_error_s_ = 0;
+    std::uint64_t next_error_frame_ = 0;
     std::uint64_t frames_ = 0;
     std::uint64_t rejected_samples_ = 0;
     double frame_ms_ = 0;  // smoothed

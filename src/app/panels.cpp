@@ -107,6 +107,10 @@ void draw_world(const Panels::Inputs& inputs, Actions& actions) {
     tooltip("Loads a built-in scene with its camera, water, sun and sky; what was built here is lost.");
     ImGui::SameLine();
     actions.screenshot |= button("Picture", "Write tarn-0001.png and its settings beside it (F12).");
+    ImGui::SameLine();
+    actions.record |= button(inputs.recording ? "Stop" : "Record",
+                             "Record the flight and all edits to tarn-0001.flight.json, until pressed again; "
+                             "`tarn render --path` plays it.");
 }
 
 // Where the slider stands, and what the measured front says of it.

@@ -6,6 +6,7 @@
 
 #include "app/albedo_textures.h"
 #include "app/camera.h"
+#include "app/error_estimate.h"
 #include "app/frame_block.h"
 #include "app/render_targets.h"
 #include "app/stopwatch.h"
@@ -56,6 +57,7 @@ struct Renderer::Parts {
 
     std::optional<RenderTargets> targets;
     Views views;
+    ErrorEstimate error;
     FrameBlock block;   // of the last frame
     Settings settings;  // of the last frame
     int current = 0;    // which of the two sets the last frame wrote
@@ -195,7 +197,7 @@ const gl::Texture& Renderer::Parts::reproject_and_filter(const Simulation& simul
     const gl::Texture* radiance = &targets->radiance;
     if (settings.history != History::None) {
         const bool blend = settings.history == History::Blend;
-        const bool moments = settings.view == ViewKind::Variance;
+        const bool moments = views.keeps_moments();
         built(temporal[blend][moments], blend, moments)
             .record({.current = surfaces(current, targets->radiance),
                      .previous = surfaces(1 - current, targets->frames[1 - current].history),
@@ -336,6 +338,35 @@ ImageRgb32f Renderer::read_radiance() const {
     return image;
 }
 
+void Renderer::keep_variance(bool on) {
+    parts_->views.keep_variance(on);
+    if (!on) parts_->error.forget();
+}
+
+void Renderer::measure_error() {
+    Parts& p = *parts_;
+    CHECK(p.targets && p.shown != nullptr);
+    const bool exact = p.settings.history == History::Exact;
+    if (!exact && !p.views.keeps_moments()) {
+        p.error.forget();
+        return;
+    }
+    p.frame_block.upload(std::span(&p.block, 1));
+    p.frame_block.bind_uniform(BINDING_FRAME);
+    p.material_block.bind_uniform(BINDING_MATERIALS);
+    p.error.measure(
+        p.targets->shown_px,
+        [&](const gl::Framebuffer& to) { p.views.show_variance(*p.targets, p.current, to, p.timers); },
+        [&](const gl::Framebuffer& to) {
+            p.built(p.display[1], true).record({.radiance = *p.shown}, {.picture = to}, p.timers);
+        },
+        p.timers);
+}
+
+std::optional<double> Renderer::estimated_error(bool wait) const {
+    return parts_->error.last(wait);
+}
+
 std::uint64_t Renderer::samples() const {
     const Settings& s = parts_->settings;
     std::uint64_t frames = 1;
@@ -366,6 +397,7 @@ std::vector<std::string> Renderer::poll_reload() {
     };
     parts_->trace.poll_reload(messages);
     parts_->views.for_each_program(poll_program);
+    parts_->error.for_each_program(poll_program);
     for (int i = 0; i < 2; ++i) {
         for (auto& pass : parts_->temporal[i]) poll(pass);
         poll(parts_->filter[i]);

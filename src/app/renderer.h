@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -64,7 +65,15 @@ class Renderer {
 
     std::uint64_t samples() const;           // kept per pixel (exact: all; else of the youngest frame's cap)
     std::uint64_t rejected_samples() const;  // not finite, since the start
-    double compile_ms() const;               // spent building programs so far
+    // Keeps from the next frame on what an estimate needs.
+    void keep_variance(bool on);
+    // Measures the error of the frame last rendered; the answer comes frames later.
+    void measure_error();
+    // The estimated relMSE of the luminance: the noise that the spread of the frames shows, before the
+    // filter, and no bias. Nothing before the first answer or without a history. wait: for the answer under
+    // way.
+    std::optional<double> estimated_error(bool wait) const;
+    double compile_ms() const;  // spent building programs so far
 
     std::vector<std::string> poll_reload();
 

@@ -182,9 +182,12 @@ void bench_options(CLI::App* bench, Arguments& arguments) {
         "not find the same, or a world does not come to rest.");
 }
 
-void tradeoff_options(CLI::App* tradeoff, Arguments& arguments) {
+void tradeoff_options(CLI::App* tradeoff, Arguments& arguments, std::string& size) {
     tradeoff->add_flag("--quick", arguments.quick,
                        "One scene and few configurations: minutes in place of hours");
+    tradeoff->add_option(
+        "--part", arguments.suites,
+        fmt::format("Parts, separated by commas (all): {}", fmt::join(tradeoff_parts(), ", ")));
     tradeoff->add_option("--scene", arguments.scenarios,
                          fmt::format("Scenes, separated by commas (all; --quick: lake): {}",
                                      fmt::join(tradeoff_scenes(), ", ")));
@@ -192,6 +195,9 @@ void tradeoff_options(CLI::App* tradeoff, Arguments& arguments) {
                          "Folder for tradeoff.csv, charts and references; made where it is missing");
     tradeoff->add_flag("--resume", arguments.resume,
                        "Go on with the rows in --out that this very program wrote, asked the same");
+    tradeoff->add_option(
+        "--size", size,
+        "Size of the timed pictures, WIDTHxHEIGHT (640x360); errors are of a quarter of it each way");
     tradeoff->add_flag("--report", arguments.report,
                        "Measure nothing: tables and charts of the rows in --out again");
     tradeoff->add_option(
@@ -309,7 +315,7 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
 
     CLI::App* tradeoff = app.add_subcommand(
         "tradeoff", "Measure the trade of speed for accuracy: time against error, and the best of both");
-    tradeoff_options(tradeoff, arguments);
+    tradeoff_options(tradeoff, arguments, size);
 
     app.add_subcommand("scenes", "List the built-in scenes");
     app.add_subcommand("settings", "List every setting: key, range, default, help");

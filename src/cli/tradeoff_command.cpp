@@ -14,9 +14,11 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "gl/context.h"
+#include "measure/estimate_table.h"
 #include "measure/tradeoff_plot.h"
 #include "measure/tradeoff_scene.h"
 #include "measure/tradeoff_table.h"
+#include "measure/water_trade.h"
 #include "platform/platform.h"
 
 namespace tarn {
@@ -41,6 +43,10 @@ std::uint64_t hash_of_text(std::string_view text, std::uint64_t hash) {
     return hash;
 }
 
+glm::ivec2 time_size(const Arguments& arguments) {
+    return arguments.size_px == glm::ivec2(0) ? TradeoffOptions().time_px : arguments.size_px;
+}
+
 // Of all that a row follows from besides its configuration: this program, its shaders, the driver, the
 // options.
 std::string program_hash(const TradeoffOptions& options) {
@@ -48,7 +54,9 @@ std::string program_hash(const TradeoffOptions& options) {
     for (const std::string& path : list_assets("")) hash = hash_of_text(read_asset(path), hash);
     const gl::DriverInfo driver = gl::driver_info();
     hash = hash_of_text(driver.renderer + driver.version, hash);
-    hash = hash_of_text(fmt::format("{} {}", options.frame_stride, options.rounds), hash);
+    hash = hash_of_text(fmt::format("{} {} {}x{}", options.frame_stride, options.rounds, options.time_px.x,
+                                    options.time_px.y),
+                        hash);
     return fmt::format("{:016x}", hash);
 }
 
@@ -57,6 +65,8 @@ class LightTrade {
     LightTrade(const Arguments& arguments, const std::vector<std::string>& scenes);
     void run();
     const std::vector<TradeoffRow>& rows() const { return rows_; }
+    // Of exact mode, at several numbers of samples.
+    std::vector<EstimateRow> estimates();
 
   private:
     void prepare_references();
@@ -79,6 +89,8 @@ class LightTrade {
 
 LightTrade::LightTrade(const Arguments& arguments, const std::vector<std::string>& scenes)
     : arguments_(arguments) {
+    options_.time_px = time_size(arguments);
+    options_.error_px = glm::max(options_.time_px / 4, 1);
     if (arguments.quick) options_.frame_stride = 4;
     if (arguments.quick) options_.rounds = 3;
     if (!arguments.out.empty()) {
@@ -172,6 +184,7 @@ void LightTrade::measure_batch(TradeoffScene& scene, std::span<const Configurati
                       .error = error.error,
                       .bias = error.bias,
                       .floor = error.floor,
+                      .predicted = error.predicted,
                       .reference_samples = error.reference_samples,
                       .rejected = error.rejected});
             }
@@ -207,15 +220,35 @@ void LightTrade::run() {
     progress_.reset();
 }
 
+std::vector<EstimateRow> LightTrade::estimates() {
+    constexpr int samples[] = {2, 4, 8, 16, 32, 64};
+    std::vector<EstimateRow> rows;
+    for (const auto& scene : scenes_) {
+        const auto errors = scene->measure_exact(recordings_.front(), samples);
+        for (std::size_t i = 0; i < errors.size(); ++i)
+            rows.push_back({.scene = scene->name(),
+                            .label = fmt::format("exact {}", samples[i]),
+                            .samples = samples[i],
+                            .predicted = errors[i].predicted,
+                            .error = errors[i].error,
+                            .floor = errors[i].floor});
+    }
+    return rows;
+}
+
+void write_drawing(const fs::path& folder, const std::string& name, const Drawing& drawing) {
+    write_file(folder / (name + ".svg"), drawing.svg());
+    write_png(folder / (name + ".png"), drawing.image(chart_scale));
+}
+
 void write_charts(const fs::path& folder, std::span<const TradeoffRow> rows, const std::string& about) {
-    const auto write = [&](const std::string& name, const Drawing& drawing) {
-        write_file(folder / (name + ".svg"), drawing.svg());
-        write_png(folder / (name + ".png"), drawing.image(chart_scale));
-    };
     for (const SceneChoice& choice : scene_choices)
         if (std::any_of(rows.begin(), rows.end(), [&](const auto& row) { return row.scene == choice.name; }))
-            write(fmt::format("tradeoff-{}", choice.name), draw_scene(rows, choice.name, about));
-    write("tradeoff", draw_over_all(rows, about));
+            write_drawing(folder, fmt::format("tradeoff-{}", choice.name),
+                          draw_scene(rows, choice.name, about));
+    write_drawing(folder, "tradeoff", draw_over_all(rows, about));
+    write_file(folder / "tradeoff.txt",
+               tradeoff_text(rows) + "\n" + bars_text(tradeoff_bars(rows)) + "\n" + fronts_text(rows));
 }
 
 }  // namespace
@@ -250,7 +283,44 @@ int report_again(const Arguments& arguments) {
 
 }  // namespace
 
+namespace {
+
+bool run_light(const Arguments& arguments, const std::vector<std::string>& scenes) {
+    LightTrade trade(arguments, scenes);
+    trade.run();
+    const auto& rows = trade.rows();
+    std::vector<EstimateRow> estimates = trade.estimates();
+    for (const EstimateRow& row : estimate_rows(rows)) estimates.push_back(row);
+    report(arguments, rows, gl::driver_info().renderer);
+    fmt::print("\n{}", estimate_text(estimates));
+    if (!arguments.out.empty()) {
+        write_file(fs::path(arguments.out) / "estimate.csv", estimate_csv(estimates));
+        write_drawing(arguments.out, "estimate", draw_estimates(estimates));
+    }
+    return std::all_of(rows.begin(), rows.end(), [](const auto& row) { return row.rejected == 0; });
+}
+
+void run_water(const Arguments& arguments) {
+    std::vector<WaterTradeRow> rows;
+    {
+        StepProgress progress;
+        rows = measure_water_trade(arguments.quick, [&](const std::string& what) { progress.show(what); });
+    }
+    fmt::print("\n{}", water_trade_text(rows));
+    if (arguments.out.empty()) return;
+    write_file(fs::path(arguments.out) / "water-trade.csv", water_trade_csv(rows));
+    write_drawing(arguments.out, "water-trade", draw_water_trade(rows));
+}
+
+}  // namespace
+
+const std::vector<std::string>& tradeoff_parts() {
+    static const std::vector<std::string> parts = {"light", "water"};
+    return parts;
+}
+
 int run_tradeoff_command(const Arguments& arguments) {
+    const auto parts = names_of("--part", arguments.suites, tradeoff_parts());
     std::string scenes = arguments.scenarios;
     if (scenes.empty() && arguments.quick) scenes = "lake";
     const auto names = names_of("--scene", scenes, tradeoff_scenes());
@@ -260,14 +330,17 @@ int run_tradeoff_command(const Arguments& arguments) {
     if (arguments.report) return report_again(arguments);
     if (!arguments.out.empty()) make_folder(arguments.out, {"tradeoff.svg"});
     const auto platform = make_headless({1, 1}, 0);
-    fmt::print("rendered by {}; errors at 160x90, times at 640x360\n", gl::driver_info().renderer);
+    const glm::ivec2 size = time_size(arguments);
+    fmt::print("rendered by {}; times at {}x{}, errors at {}x{}\n", gl::driver_info().renderer, size.x,
+               size.y, std::max(size.x / 4, 1), std::max(size.y / 4, 1));
     std::fflush(stdout);
 
-    LightTrade trade(arguments, names);
-    trade.run();
-    const auto& rows = trade.rows();
-    report(arguments, rows, gl::driver_info().renderer);
-    return std::any_of(rows.begin(), rows.end(), [](const auto& row) { return row.rejected > 0; }) ? 1 : 0;
+    const auto asked = [&](const char* part) {
+        return std::find(parts.begin(), parts.end(), part) != parts.end();
+    };
+    const bool good = !asked("light") || run_light(arguments, names);
+    if (asked("water")) run_water(arguments);
+    return good ? 0 : 1;
 }
 
 }  // namespace tarn

@@ -276,6 +276,7 @@ void assign_setting(Settings& settings, const SettingInfo& info, glm::dvec3 valu
     }
     if (name == "tradeoff") {
         apply_front_point(settings, front_point(value.x));
+        settings.tradeoff = static_cast<float>(value.x);
         return;
     }
     info.set(settings, value);

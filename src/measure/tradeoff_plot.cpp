@@ -67,7 +67,7 @@ PlotPanel panel_of(const std::string& title, const std::string& time_label,
     const auto on_front = pareto_front(measured);
     for (std::size_t i = 0; i < on_front.size(); ++i) {
         front.points.push_back(point_of(measured[on_front[i]]));
-        front.labels.push_back(i < 26 ? std::string(1, static_cast<char>('a' + i)) : "");
+        front.labels.push_back(front_letter(i));
     }
     for (const Quality quality : {Quality::Fast, Quality::Balanced, Quality::Quality})
         for (const Measured& m : measured)
@@ -78,7 +78,7 @@ PlotPanel panel_of(const std::string& title, const std::string& time_label,
     for (const int samples : baseline_samples)
         for (const Measured& m : measured)
             if (m.configuration == baseline_with(samples) && samples == 1 && !all_baselines)
-                panel.title += fmt::format("  (baseline off the chart: {:.3g} at {:.3g})", m.error, m.time);
+                panel.title += fmt::format("; baseline: {:.3g} at {:.4g}", m.error, m.time);
             else if (m.configuration == baseline_with(samples) && all_baselines) {
                 baseline.points.push_back(point_of(m));
                 baseline.labels.push_back(samples == 1 ? "baseline" : fmt::format("{}", samples));
@@ -96,7 +96,8 @@ Drawing draw_scene(std::span<const TradeoffRow> rows, const std::string& scene, 
         if (row.scene != scene || std::find(done.begin(), done.end(), row.recording) != done.end()) continue;
         done.push_back(row.recording);
         panels.push_back(panel_of(row.recording, "ms a frame", of_place(rows, scene, row.recording)));
-        panels.back().levels.push_back({floor_factor * row.floor, "3 times the reference's own error"});
+        if (floor_factor * row.floor > panels.back().y.low)
+            panels.back().levels.push_back({floor_factor * row.floor, "3 times the reference's own error"});
     }
     return draw_plot(panels, columns, fmt::format("{}: error against time; {}", scene, about));
 }

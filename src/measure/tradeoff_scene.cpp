@@ -89,12 +89,16 @@ TradeoffScene::OfRecording& TradeoffScene::references_of(const Recording& record
     return recordings_.emplace(recording.name, std::move(of)).first->second;
 }
 
+void TradeoffScene::rest() {
+    if (world_at_rest_) return;
+    simulation_ = std::make_unique<Simulation>(scene_, timers_);
+    renderer_->world_replaced();
+    world_at_rest_ = true;
+}
+
 void TradeoffScene::play(const OfRecording& of, Settings& settings, bool lead,
                          const std::function<void()>& draw, const std::function<void(int)>& compare) {
-    if (!world_at_rest_) {
-        simulation_ = std::make_unique<Simulation>(scene_, timers_);
-        renderer_->world_replaced();
-    }
+    rest();
     world_at_rest_ = !of.recording.moves_world();
     place_camera(of.recording, 0, scene_.settings, settings);
     for (int i = 0; lead && i < of.recording.lead_frames; ++i) draw();
@@ -145,14 +149,26 @@ PictureError TradeoffScene::measure_error(const Recording& recording, const Conf
     Settings settings = settings_of(configuration);
     const std::uint64_t rejected = renderer_->rejected_samples();
     std::vector<Luminance> runs[2];
+    double predicted = 0;
+    int predictions = 0;
+    renderer_->keep_variance(true);
     for (int run = 0; run < 2; ++run) {
         renderer_->reset_history();
         renderer_->set_frame_index(runs_from + run_frames * static_cast<std::uint64_t>(run));
         play(
             of, settings, true, [&] { draw(settings, options_.error_px); },
-            [&](int) { runs[run].push_back(shown()); });
+            [&](int) {
+                runs[run].push_back(shown());
+                renderer_->measure_error();
+                if (const auto estimate = renderer_->estimated_error(true)) {
+                    predicted += *estimate;
+                    ++predictions;
+                }
+            });
     }
+    renderer_->keep_variance(false);
     PictureError result;
+    if (predictions > 0) result.predicted = predicted / predictions;
     const auto frames = static_cast<double>(of.frames.size());
     for (std::size_t i = 0; i < of.frames.size(); ++i) {
         const Reference& reference = references.at(std::min(static_cast<int>(i), references.frames() - 1));
@@ -165,12 +181,31 @@ PictureError TradeoffScene::measure_error(const Recording& recording, const Conf
     return result;
 }
 
-std::vector<double> TradeoffScene::measure_times(std::span<const Configuration> configurations) {
-    if (!world_at_rest_) {
-        simulation_ = std::make_unique<Simulation>(scene_, timers_);
-        renderer_->world_replaced();
-        world_at_rest_ = true;
+std::vector<PictureError> TradeoffScene::measure_exact(const Recording& recording,
+                                                       std::span<const int> samples) {
+    OfRecording& of = references_of(recording);
+    Settings settings = scene_.settings;
+    rest();
+    place_camera(recording, 0, scene_.settings, settings);
+    renderer_->reset_history();
+    renderer_->set_frame_index(runs_from + 2 * run_frames);
+    std::vector<PictureError> errors;
+    int done = 0;
+    for (const int wanted : samples) {
+        for (; done < wanted; ++done) draw(settings, options_.error_px);
+        const Reference& reference = of.references->at(0);
+        PictureError& error = errors.emplace_back();
+        error.error = error_of(shown(), reference);
+        error.floor = floor_of(reference);
+        error.reference_samples = 2 * reference.samples;
+        renderer_->measure_error();
+        error.predicted = renderer_->estimated_error(true).value_or(-1);
     }
+    return errors;
+}
+
+std::vector<double> TradeoffScene::measure_times(std::span<const Configuration> configurations) {
+    rest();
     std::vector<std::vector<double>> ms(configurations.size());
     // The first round compiles.
     for (int round = 0; round <= options_.rounds; ++round)

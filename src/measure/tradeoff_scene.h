@@ -28,6 +28,7 @@ struct TradeoffOptions {
 
 struct PictureError {
     double error = 0, bias = 0, floor = 0;  // relMSE, means over the frames
+    double predicted = -1;                  // Renderer::estimated_error() likewise; -1: none
     int reference_samples = 0;              // of both halves
     std::uint64_t rejected = 0;
 };
@@ -45,6 +46,10 @@ class TradeoffScene {
     // Two independent runs of the recording.
     PictureError measure_error(const Recording& recording, const Configuration& configuration);
 
+    // Of the exact mean of so many samples a pixel of the recording's first frame, for each of `samples`,
+    // which grow.
+    std::vector<PictureError> measure_exact(const Recording& recording, std::span<const int> samples);
+
     // Milliseconds of a frame at the scene's camera: medians over rounds in which each takes its turn.
     std::vector<double> measure_times(std::span<const Configuration> configurations);
 
@@ -56,8 +61,9 @@ class TradeoffScene {
     };
     OfRecording& references_of(const Recording& recording);
     Settings settings_of(const Configuration& configuration) const;
-    // Calls seen(index in frames) after each frame that is compared was prepared, and between(frame) at every
-    // one.
+    void rest();  // the world as the scene says
+    // Lead frames, then those up to the last that is compared; calls draw() for each, compare(index in
+    // frames) after those that are.
     void play(const OfRecording& of, Settings& settings, bool lead, const std::function<void()>& draw,
               const std::function<void(int)>& compare);
     Luminance shown() const { return luminance_of(renderer_->read_radiance()); }

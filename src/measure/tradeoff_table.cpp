@@ -12,9 +12,9 @@ namespace tarn {
 
 namespace {
 
-constexpr const char* columns[] = {"program",           "scene",    "recording", "label", "time_ms",
-                                   "time_ratio",        "error",    "bias",      "floor", "near_floor",
-                                   "reference_samples", "rejected", "settings"};
+constexpr const char* columns[] = {
+    "program", "scene", "recording",  "label",     "time_ms",           "time_ratio", "error",
+    "bias",    "floor", "near_floor", "predicted", "reference_samples", "rejected",   "settings"};
 
 using Place = std::pair<std::string, std::string>;  // scene, recording
 
@@ -48,9 +48,10 @@ std::string tradeoff_csv_head() {
 }
 
 std::string tradeoff_csv_line(const TradeoffRow& r) {
-    return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", r.program, r.scene, r.recording,
+    return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", r.program, r.scene, r.recording,
                        label_of(r.configuration), r.time_ms, r.time_ratio, r.error, r.bias, r.floor,
-                       r.near_floor() ? 1 : 0, r.reference_samples, r.rejected, text_of(r.configuration));
+                       r.near_floor() ? 1 : 0, r.predicted, r.reference_samples, r.rejected,
+                       text_of(r.configuration));
 }
 
 std::vector<TradeoffRow> read_tradeoff_csv(const std::string& text, const std::string& origin,
@@ -82,14 +83,15 @@ std::vector<TradeoffRow> read_tradeoff_csv(const std::string& text, const std::s
             rows.push_back({.program = parts[0],
                             .scene = parts[1],
                             .recording = parts[2],
-                            .configuration = parse_configuration(parts[12]),
+                            .configuration = parse_configuration(parts[13]),
                             .time_ms = std::stod(parts[4]),
                             .time_ratio = std::stod(parts[5]),
                             .error = std::stod(parts[6]),
                             .bias = std::stod(parts[7]),
                             .floor = std::stod(parts[8]),
-                            .reference_samples = std::stoi(parts[10]),
-                            .rejected = std::stoull(parts[11])});
+                            .predicted = std::stod(parts[10]),
+                            .reference_samples = std::stoi(parts[11]),
+                            .rejected = std::stoull(parts[12])});
         } catch (const std::exception&) {
             ++others;
         }
@@ -126,10 +128,17 @@ std::vector<Measured> over_all(std::span<const TradeoffRow> rows) {
 
 std::vector<Measured> of_place(std::span<const TradeoffRow> rows, const std::string& scene,
                                const std::string& recording) {
+    // Batches ran under different loads of the machine: by ratios to `balanced`, whose own time is one of
+    // them.
+    double balanced_ms = 1;
+    const Configuration balanced = configuration_of(Quality::Balanced);
+    for (const TradeoffRow& row : rows)
+        if (row.scene == scene && row.configuration == balanced) balanced_ms = row.time_ms;
     std::vector<Measured> measured;
     for (const TradeoffRow& row : rows)
         if (row.scene == scene && row.recording == recording)
-            measured.push_back({row.configuration, row.time_ms, row.error, !row.near_floor()});
+            measured.push_back(
+                {row.configuration, balanced_ms * row.time_ratio, row.error, !row.near_floor()});
     return measured;
 }
 
@@ -162,48 +171,6 @@ std::optional<double> Curve::time_for(double error) const {
     const Measured& last = points.back();
     if (error <= bias || last.error <= bias) return std::nullopt;
     return last.time * (last.error - bias) / (error - bias);
-}
-
-std::vector<FrontPoint> front_points(std::span<const TradeoffRow> rows, int points_max) {
-    const std::vector<Measured> measured = over_all(rows);
-    struct Candidate {
-        Measured measured;
-        Nearest nearest;
-        bool kept;
-    };
-    std::vector<Candidate> candidates;
-    for (const std::size_t i : pareto_front(measured)) {
-        const Nearest nearest = nearest_quality(measured[i].configuration);
-        candidates.push_back({measured[i], nearest, nearest.differs.empty()});
-    }
-    if (candidates.empty()) return {};
-    candidates.front().kept = candidates.back().kept = true;
-    const auto kept = [&] {
-        return std::count_if(candidates.begin(), candidates.end(), [](const Candidate& c) { return c.kept; });
-    };
-    while (kept() < std::min<std::ptrdiff_t>(points_max, std::ssize(candidates))) {
-        Candidate* farthest = nullptr;
-        double distance = -1;
-        for (Candidate& c : candidates) {
-            if (c.kept) continue;
-            double nearest = 1e300;
-            for (const Candidate& other : candidates)
-                if (other.kept)
-                    nearest = std::min(nearest, std::abs(logarithm(c.measured.time / other.measured.time)));
-            if (nearest <= distance) continue;
-            distance = nearest;
-            farthest = &c;
-        }
-        farthest->kept = true;
-    }
-    std::vector<FrontPoint> points;
-    for (const Candidate& c : candidates)
-        if (c.kept)
-            points.push_back({.quality = c.nearest.quality,
-                              .set = c.nearest.differs,
-                              .time = c.measured.time,
-                              .error = c.measured.error});
-    return points;
 }
 
 Configuration baseline_with(int samples) {
@@ -275,7 +242,6 @@ std::string bars_text(std::span<const TradeoffBar> bars) {
 }
 
 std::vector<std::string> beaten_qualities(std::span<const TradeoffRow> rows) {
-    constexpr double margin = 1.1;
     std::vector<std::string> lines;
     const auto look = [&](const std::string& where, const std::vector<Measured>& measured) {
         for (const Quality quality : {Quality::Fast, Quality::Balanced, Quality::Quality}) {
@@ -286,7 +252,9 @@ std::vector<std::string> beaten_qualities(std::span<const TradeoffRow> rows) {
             if (mine == measured.end()) continue;
             const Measured* best = nullptr;
             for (const Measured& m : measured) {
-                if (!m.eligible || m.time * margin > mine->time || m.error * margin > mine->error) continue;
+                if (!m.eligible || m.time * beaten_factor > mine->time ||
+                    m.error * beaten_factor > mine->error)
+                    continue;
                 if (best == nullptr || m.time * m.error < best->time * best->error) best = &m;
             }
             if (best != nullptr)
@@ -301,20 +269,44 @@ std::vector<std::string> beaten_qualities(std::span<const TradeoffRow> rows) {
     return lines;
 }
 
+std::string front_letter(std::size_t index) {
+    return index < 26 ? std::string(1, static_cast<char>('a' + index)) : std::string();
+}
+
 std::string tradeoff_text(std::span<const TradeoffRow> rows) {
     const std::vector<Measured> measured = over_all(rows);
     std::string text = fmt::format(
-        "Over all scenes and recordings (geometric means; time as a ratio to balanced):\n{:>8} {:>10}   {}\n",
+        "Over all scenes and recordings (geometric means; time as a ratio to balanced):\n  {:>8} {:>10}   "
+        "{}\n",
         "time", "relMSE", "front, from fast to accurate");
-    for (const std::size_t i : pareto_front(measured))
-        text += fmt::format("{:>8.3f} {:>10.4g}   {}\n", measured[i].time, measured[i].error,
-                            label_of(measured[i].configuration));
-    text += fmt::format("{:>8} {:>10}   qualities\n", "time", "relMSE");
+    const auto on_front = pareto_front(measured);
+    for (std::size_t i = 0; i < on_front.size(); ++i) {
+        const Measured& m = measured[on_front[i]];
+        text += fmt::format("{:<1} {:>8.3f} {:>10.4g}   {}\n", front_letter(i), m.time, m.error,
+                            label_of(m.configuration));
+    }
+    text += fmt::format("  {:>8} {:>10}   qualities\n", "time", "relMSE");
     for (const Measured& m : measured)
         for (const Quality q : {Quality::Baseline, Quality::Fast, Quality::Balanced, Quality::Quality})
             if (m.configuration == configuration_of(q))
-                text += fmt::format("{:>8.3f} {:>10.4g}   {}{}\n", m.time, m.error, label_of(m.configuration),
-                                    m.eligible ? "" : "  (a row within 3 times its floor)");
+                text +=
+                    fmt::format("  {:>8.3f} {:>10.4g}   {}{}\n", m.time, m.error, label_of(m.configuration),
+                                m.eligible ? "" : "  (a row within 3 times its floor)");
+    return text;
+}
+
+std::string fronts_text(std::span<const TradeoffRow> rows) {
+    std::string text;
+    for (const auto& [scene, recording] : places_of(rows)) {
+        const std::vector<Measured> measured = of_place(rows, scene, recording);
+        text += fmt::format("{} {}:\n  {:>9} {:>10}\n", scene, recording, "ms", "relMSE");
+        const auto on_front = pareto_front(measured);
+        for (std::size_t i = 0; i < on_front.size(); ++i) {
+            const Measured& m = measured[on_front[i]];
+            text += fmt::format("{:<1} {:>9.1f} {:>10.4g}   {}\n", front_letter(i), m.time, m.error,
+                                label_of(m.configuration));
+        }
+    }
     return text;
 }
 

@@ -13,6 +13,8 @@ namespace tarn {
 
 // A row within this factor of its reference's own error chooses nothing.
 constexpr double floor_factor = 3;
+// What beats another by less than this in time or in error may do so by chance.
+constexpr double beaten_factor = 1.1;
 
 struct TradeoffRow {
     std::string program;  // hash of the program and of what was asked of it: rows of another are not mixed in
@@ -21,6 +23,7 @@ struct TradeoffRow {
     double time_ms = 0;                     // of a frame, beside the others of its batch
     double time_ratio = 0;                  // to `balanced` in the same rounds
     double error = 0, bias = 0, floor = 0;  // relMSE; bias: its part that more samples would not lessen
+    double predicted = -1;                  // Renderer::estimated_error(), mean over the frames; -1: none
     int reference_samples = 0;
     std::uint64_t rejected = 0;
 
@@ -71,11 +74,15 @@ std::vector<TradeoffBar> tradeoff_bars(std::span<const TradeoffRow> rows);
 // Qualities that another measured point beats by more than a tenth in both; a line each.
 std::vector<std::string> beaten_qualities(std::span<const TradeoffRow> rows);
 
-std::string tradeoff_text(std::span<const TradeoffRow> rows);  // the front, the qualities and what beats them
+// The name of a front's point in charts and tables: a to z, then none.
+std::string front_letter(std::size_t index);
+std::string tradeoff_text(std::span<const TradeoffRow> rows);  // the front over all, the qualities
+std::string fronts_text(std::span<const TradeoffRow> rows);    // that of each scene and recording
 std::string bars_text(std::span<const TradeoffBar> bars);
 
-// The front over all scenes for the slider: at most `points_max` of its points, the ends and those that are
-// qualities first, then those farthest from their neighbours in time.
+// The front over all scenes for the slider: at most `points_max` points, the ends and the qualities that
+// nothing beats by beaten_factor first, then those farthest from their neighbours in time. A quality takes
+// the place of front points of about its time.
 std::vector<FrontPoint> front_points(std::span<const TradeoffRow> rows, int points_max);
 
 // `baseline` with so many samples.

@@ -36,7 +36,7 @@ TEST(Front, PositionsBetweenPointsCountAsTheNearest) {
     EXPECT_EQ(front_point(0.6 / static_cast<double>(last)), 1u);
     Settings settings;
     set_setting(settings, "tradeoff", fmt::format("{}", 0.6 / static_cast<double>(last)));
-    EXPECT_EQ(settings.tradeoff, front_position(1));
+    EXPECT_EQ(point_of(settings), 1u);
 }
 
 TEST(Front, AChangedSettingLeavesTheFront) {
