@@ -7,6 +7,7 @@
 
 #include "app/simulation.h"
 #include "core/assets.h"
+#include "gpu/worlds.h"
 
 namespace tarn {
 
@@ -39,6 +40,22 @@ inline void expect_kept_books(Simulation& simulation, const Settings& settings, 
             ASSERT_EQ(now.voxels[id], expected) << "material " << id << " after tick " << simulation.tick();
         }
     }
+}
+
+// Runs until nothing is active, at most `ticks`: then nothing changes any more, and the water is what it was.
+inline void expect_rest(const Scene& scene, WaterTier tier, std::uint64_t ticks) {
+    gl::Timers timers;
+    Simulation simulation(scene, timers);
+    Settings settings = scene.settings;
+    settings.water_tier = tier;
+    while (simulation.active_bricks() > 0 && simulation.tick() < ticks) simulation.step(50, settings);
+    EXPECT_EQ(simulation.active_bricks(), 0u);
+    const std::uint32_t last_change = simulation.last_change();
+    const Cells cells = simulation.read_cells();
+    simulation.step(100, settings);
+    EXPECT_TRUE(same_cells(simulation.read_cells(), cells));
+    EXPECT_EQ(simulation.last_change(), last_change);
+    EXPECT_EQ(take_census(cells).water_quanta, take_census(scene.cells).water_quanta);
 }
 
 }  // namespace tarn

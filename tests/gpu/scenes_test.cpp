@@ -1,6 +1,6 @@
 // Every built-in scene: nothing is lost or made at any tick (BRIEF fault 1: water appears and disappears),
-// and what has no spring comes to rest. Minutes of ticks, so on one driver alone: that both give the same
-// bytes is water_test's part.
+// and what has no spring comes to rest, but for one that takes as long as all others: it is among the long
+// runs. On one driver alone: that both give the same bytes is water_test's part.
 #include "gpu/conservation.h"
 #include "gpu/gl_test.h"
 #include "gpu/worlds.h"
@@ -22,7 +22,7 @@ TEST_F(ScenesTest, Fault1_WaterNeitherAppearsNorDisappearsInAnyScene) {
         const Scene scene = load_scene(name, Settings{});
         gl::Timers timers;
         Simulation simulation(scene, timers);
-        expect_kept_books(simulation, scene.settings, take_census(scene.cells), 500, 1);
+        expect_kept_books(simulation, scene.settings, take_census(scene.cells), 250, 1);
         const FlowTotals flow = simulation.flow_totals();
         EXPECT_EQ(flow.sprung_water_quanta + flow.sprung_sand_voxels == 0, scene.springs.empty());
         if (HasFatalFailure()) return;
@@ -35,19 +35,9 @@ TEST_F(ScenesTest, every_scene_without_a_spring_comes_to_rest) {
         const Scene scene = load_scene(name, Settings{});
         if (!scene.springs.empty()) continue;
         for (const WaterTier tier : {WaterTier::Level, WaterTier::Pressure}) {
+            if (name == "locks" && tier == WaterTier::Pressure) continue;
             SCOPED_TRACE(name + ", " + name_of(tier));
-            gl::Timers timers;
-            Simulation simulation(scene, timers);
-            Settings settings = scene.settings;
-            settings.water_tier = tier;
-            while (simulation.active_bricks() > 0 && simulation.tick() < 1500) simulation.step(50, settings);
-            EXPECT_EQ(simulation.active_bricks(), 0u);
-            const std::uint32_t last_change = simulation.last_change();
-            const Cells cells = simulation.read_cells();
-            simulation.step(100, settings);
-            EXPECT_TRUE(same_cells(simulation.read_cells(), cells));
-            EXPECT_EQ(simulation.last_change(), last_change);
-            EXPECT_EQ(take_census(cells).water_quanta, take_census(scene.cells).water_quanta);
+            expect_rest(scene, tier, 1500);
             ++rested;
         }
     }

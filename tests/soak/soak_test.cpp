@@ -38,6 +38,11 @@ TEST_F(SoakTest, every_scene_keeps_its_water_and_sand_for_10000_ticks) {
     }
 }
 
+// A thousand ticks: left out of scenes_test.
+TEST_F(SoakTest, the_locks_come_to_rest_under_pressure) {
+    expect_rest(load_scene("locks", Settings{}), WaterTier::Pressure, 1500);
+}
+
 // Asleep or awake, as the scene would have it: seconds where it comes to rest, ten minutes or so where a
 // spring runs on, most of them the reference's.
 class SceneSoakTest : public GlTest, public testing::WithParamInterface<std::string> {};
