@@ -9,6 +9,7 @@
 #include "app/legend.h"
 #include "app/overlay.h"
 #include "core/error.h"
+#include "core/front.h"
 
 namespace tarn {
 
@@ -52,6 +53,12 @@ ViewKind neighbour_of(ViewKind view, bool backwards) {
     return static_cast<ViewKind>((static_cast<int>(view) + (backwards ? count - 1 : 1)) % count);
 }
 
+std::vector<double> front_times() {
+    std::vector<double> times;
+    for (const FrontPoint& point : front()) times.push_back(point.time);
+    return times;
+}
+
 double tick_ms_total(const gl::Timers& timers) {
     double sum_ms = 0;
     for (const gl::PassTime& pass : timers.passes()) {
@@ -67,8 +74,12 @@ App::App(Scene scene, const Settings& settings, Options options)
       scene_(std::move(scene)),
       settings_(settings),
       rendered_(settings),
+      trace_programs_(options.interactive && options.platform != nullptr
+                          ? options.platform->make_shared_context()
+                          : nullptr),
       simulation_(std::make_unique<Simulation>(scene_, timers_)),
-      renderer_(std::make_unique<Renderer>(scene_, timers_)) {
+      renderer_(std::make_unique<Renderer>(scene_, timers_, &trace_programs_)),
+      governor_(front_times()) {
     set_title();
 }
 
@@ -92,7 +103,7 @@ void App::load(const std::string& name_or_path) {
     apply_quality(base, Quality::Balanced);
     Scene scene = load_scene(name_or_path, base);
     auto simulation = std::make_unique<Simulation>(scene, timers_);
-    auto renderer = std::make_unique<Renderer>(scene, timers_);
+    auto renderer = std::make_unique<Renderer>(scene, timers_, &trace_programs_);
     scene_ = std::move(scene);
     simulation_ = std::move(simulation);
     renderer_ = std::move(renderer);
@@ -172,6 +183,7 @@ void App::change_settings(const Input& input, Actions& actions) {
     set_captured(look_toggled_ || input.is_down(Key::MouseLookHold));
     fly(settings_, input, captured_);
     tools_.choose(input);
+    govern(input);
 
     if (panels_.settings_open && scenes_.empty()) scenes_ = builtin_scenes();
     const Settings before = settings_;
@@ -182,9 +194,17 @@ void App::change_settings(const Input& input, Actions& actions) {
                   .scenes = scenes_,
                   .paused = clock_.paused(),
                   .can_undo = history_.can_undo(),
-                  .can_redo = history_.can_redo()},
+                  .can_redo = history_.can_redo(),
+                  .expected_ms = governor_.expected_ms(front_point(settings_.tradeoff))},
                  actions);
     if (!same_camera(before, settings_)) renderer_->reset_history();  // a jump, not a flight
+}
+
+void App::govern(const Input& input) {
+    const std::size_t point = front_point(settings_.tradeoff);
+    const double target_ms = settings_.governor ? settings_.frame_time_target_ms : 0;
+    const std::size_t next = governor_.frame(input.dt_s * 1000, point, target_ms);
+    if (settings_.governor && next != point) apply_front_point(settings_, next);
 }
 
 void App::run_actions(const Actions& actions) {

@@ -8,12 +8,14 @@
 #include <vector>
 
 #include "app/camera.h"
+#include "app/governor.h"
 #include "app/panels.h"
 #include "app/renderer.h"
 #include "app/simulation.h"
 #include "app/tick_clock.h"
 #include "app/tools.h"
 #include "gl/timers.h"
+#include "passes/trace_programs.h"
 #include "platform/platform.h"
 
 namespace tarn {
@@ -52,6 +54,7 @@ class App {
   private:
     void poll_shaders();
     void change_settings(const Input& input, Actions& actions);
+    void govern(const Input& input);
     void run_actions(const Actions& actions);
     Pick pick(glm::ivec2 size_px, glm::vec2 at_px, bool through_water);
     void edit(const Input& input);
@@ -69,12 +72,14 @@ class App {
     Scene scene_;
     Settings settings_;
     Settings rendered_;  // of the last frame: what changed since may restart the history
+    TracePrograms trace_programs_;
     std::unique_ptr<Simulation> simulation_;
     std::unique_ptr<Renderer> renderer_;
     EditHistory history_;
     Tools tools_;
     TickClock clock_;
     Panels panels_;
+    Governor governor_;
     std::vector<SceneSummary> scenes_;  // read when first shown
 
     bool look_toggled_ = false;

@@ -27,6 +27,7 @@ class Panels {
         const std::string& scene;
         std::span<const SceneSummary> scenes;
         bool paused, can_undo, can_redo;
+        double expected_ms = 0;  // of a frame where `tradeoff` stands; 0: not known
     };
     // Draws the open windows; between the platform's next_frame() and present().
     void draw(const Inputs& inputs, Actions& actions);

@@ -16,6 +16,9 @@
 
 namespace tarn {
 
+class TracePrograms;
+struct TraceFeatures;
+
 // The voxel around the eye, be it of any medium but air; else the first surface that a ray from the eye
 // meets.
 struct Pick {
@@ -27,7 +30,9 @@ struct Pick {
 
 class Renderer {
   public:
-    Renderer(const Scene& scene, gl::Timers& timers);
+    // `programs`: shared with renderers of other scenes, and built beside the frames; null: its own, built
+    // when needed.
+    Renderer(const Scene& scene, gl::Timers& timers, TracePrograms* programs = nullptr);
     ~Renderer();
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
@@ -39,6 +44,9 @@ class Renderer {
     void reset_history();
     // Another simulation, of the same scene, comes with the next frame.
     void world_replaced();
+
+    // What the trace program can do though the scene has no need of it. For measurements and tests.
+    void compile_in(const TraceFeatures& always);
 
     // Of the next frame: its random numbers follow from it. For tests of counter wrap.
     void set_frame_index(std::uint64_t index);
