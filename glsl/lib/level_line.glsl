@@ -31,7 +31,13 @@ int content_in(int cell) { return cell & CONTENT; }
 int content_before(int cell) { return cell >> BEFORE_SHIFT; }
 bool takes_part(int cell) { return (cell & STANDS) != 0 && is_open(content_in(cell)); }
 
-void set_content(int at, int content) { grid[at] = (grid[at] & ~CONTENT) | content; }
+// Whether this invocation may have changed what a cell holds.
+bool changed_here = false;
+
+void set_content(int at, int content) {
+    grid[at] = (grid[at] & ~CONTENT) | content;
+    changed_here = true;
+}
 
 struct Extent {
     int total, most, least;

@@ -1,6 +1,6 @@
 // The path tracer: one path from the eye, its light, and the first surface it meets. Options, so that what a scene
 // does not contain costs nothing: TRACE_CLEAR (water or glass), TRACE_ROUGH (some of it rough), TRACE_COATED (opaque
-// materials with an interface), TRACE_METAL (metals among them; needs TRACE_COATED), TRACE_SUN, TRACE_SKY and
+// materials with an interface, metals), TRACE_SUN, TRACE_SKY and
 // TRACE_EMITTERS (light sampling), TRACE_SMOOTH_WATER (water's levels shaded as one surface; needs TRACE_CLEAR),
 // TRACE_COUNT (bounces and steps, for views). What a program can do beyond what its scene has changes no bit of the
 // picture: nothing there draws random numbers.

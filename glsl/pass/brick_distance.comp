@@ -13,10 +13,11 @@ uniform ivec3 size_bricks;
 const int NEVER = -0x10000;
 
 // The distances r and g of what lies behind, as a sweep passes: `least` is the minimum at this brick, `at` the latest
-// brick whose own distance is at most that, `latest` the latest brick of each distance.
+// brick whose own distance is at most that, `latest` the latest brick of each distance, of g behind r.
+const int LATEST_OF_G = BRICK_DISTANCE_MAX + 1;
 struct Sweep {
     ivec2 least, at;
-    int latest_r[BRICK_DISTANCE_MAX + 1], latest_g[BRICK_DISTANCE_MAX + 1];
+    int latest[2 * LATEST_OF_G];
 };
 Sweep sweep;
 
@@ -32,24 +33,21 @@ ivec2 own_distance(ivec3 brick) {
 void begin() {
     sweep.least = ivec2(BRICK_DISTANCE_MAX);
     sweep.at = ivec2(NEVER);
-    for (int d = 0; d <= BRICK_DISTANCE_MAX; ++d) {
-        sweep.latest_r[d] = NEVER;
-        sweep.latest_g[d] = NEVER;
-    }
+    for (int d = 0; d < 2 * LATEST_OF_G; ++d) sweep.latest[d] = NEVER;
 }
 
-// To brick number `i` of the sweep, of distance `own`.
-void advance(int i, ivec2 own) {
+// To brick number `k` of the sweep, of distance `own`.
+void advance(int k, ivec2 own) {
     // Too far from all of that distance: the next one reaches, from no further back.
-    bvec2 farther = greaterThan(ivec2(i) - sweep.at, sweep.least);
+    bvec2 farther = greaterThan(ivec2(k) - sweep.at, sweep.least);
     sweep.least = min(sweep.least + ivec2(farther), ivec2(BRICK_DISTANCE_MAX));
-    sweep.at.r = max(sweep.at.r, sweep.latest_r[sweep.least.r]);
-    sweep.at.g = max(sweep.at.g, sweep.latest_g[sweep.least.g]);
+    sweep.at.r = max(sweep.at.r, sweep.latest[sweep.least.r]);
+    sweep.at.g = max(sweep.at.g, sweep.latest[LATEST_OF_G + sweep.least.g]);
     bvec2 nearer = lessThanEqual(own, sweep.least);
     sweep.least = mix(sweep.least, own, nearer);
-    sweep.at = mix(sweep.at, ivec2(i), nearer);
-    sweep.latest_r[own.r] = i;
-    sweep.latest_g[own.g] = i;
+    sweep.at = mix(sweep.at, ivec2(k), nearer);
+    sweep.latest[own.r] = k;
+    sweep.latest[LATEST_OF_G + own.g] = k;
 }
 
 void main() {
@@ -64,22 +62,23 @@ void main() {
     int first = low[AXIS];
     int last = high[AXIS];
     int n = size_bricks[AXIS];
-    int reach = BRICK_DISTANCE_MAX - 1;
+    const int reach = BRICK_DISTANCE_MAX - 1;
 
-    begin();
-    for (int i = max(first - reach, 0); i <= last; ++i) {
-        brick[AXIS] = i;
-        advance(i, own_distance(brick));
-        if (i >= first) imageStore(target, brick, uvec4(uvec2(sweep.least), 0u, 0u));
-    }
-    begin();
-    for (int i = min(last + reach, n - 1); i >= first; --i) {
-        brick[AXIS] = i;
-        advance(n - i, own_distance(brick));
-        if (i > last) continue;
-        ivec2 least = min(sweep.least, ivec2(imageLoad(target, brick).rg));
-        // Beyond the world there is no water (g), and nothing that a ray could meet (r).
-        least.g = min(least.g, min(i + 1, n - i));
-        imageStore(target, brick, uvec4(uvec2(least), 0u, 0u));
+    for (int way = 0; way < 2; ++way) {
+        begin();
+        // What lies before the box reaches into it.
+        int start = way == 0 ? max(first - reach, 0) : min(last + reach, n - 1);
+        int count = way == 0 ? last - start + 1 : start - first + 1;
+        for (int k = 0; k < count; ++k) {
+            int i = way == 0 ? start + k : start - k;
+            brick[AXIS] = i;
+            advance(k, own_distance(brick));
+            if (i < first || i > last) continue;
+            ivec2 least = sweep.least;
+            if (way == 1) least = min(least, ivec2(imageLoad(target, brick).rg));
+            // Beyond the world there is no water (g), and nothing that a ray could meet (r).
+            least.g = min(least.g, min(i + 1, n - i));
+            imageStore(target, brick, uvec4(uvec2(least), 0u, 0u));
+        }
     }
 }

@@ -13,8 +13,16 @@ const int LAYER = TALL_SIDE * TALL_SIDE;
 const int HAS_WATER = 1;
 const int HAS_SAND = 2;
 shared int in_block;
-// Of each pass of levelling.
-shared int wet_layers[2], roomy_layers[2];
+// As levelling finds them: layers that hold water, and room for it, a bit each.
+shared int wet_layers, roomy_layers;
+// 1: a cell may hold something else than before: 0, as the block fell; 1 and 2, in a pass of levelling.
+shared int changed_parts[3];
+
+// At the end of a part of the tick; a barrier must follow before anyone asks.
+void tell_changes(int part) {
+    for (bool tells = changed_here; tells; tells = false) changed_parts[part] = 1;
+    changed_here = false;
+}
 
 #ifdef PRESSURE
 shared uint head[GRID_CELLS];
@@ -42,9 +50,12 @@ void fall(int upper_at, int upper_y, bool sinks_in_water) {
 #endif
         moved = min(upper, FULL - lower);
     }
-    if (moved == 0) return;
-    grid[upper_at] = upper_cell - moved;
-    grid[upper_at - LAYER] = lower_cell + moved;
+    // A loop that runs at most once: llvmpipe runs the body of a branch for lanes that do not take it.
+    for (bool moves = moved != 0; moves; moves = false) {
+        grid[upper_at] = upper_cell - moved;
+        grid[upper_at - LAYER] = lower_cell + moved;
+        changed_here = true;
+    }
 }
 
 // Sand that rests slides to the bottom of a neighbouring column of its sub-block of 2x2x2.
@@ -91,11 +102,11 @@ void find_supports(int column, int world_y, inout ivec2 layers) {
 void find_cuts(ivec3 local, int step_x) {
     int x = local.x + step_x;
     bool within = x >= 0 && x < TALL_SIDE && local.z + 1 < TALL_SIDE;
-    for (int y = 0; within && y < TALL_HEIGHT; ++y) {
+    for (int y = 0; y < TALL_HEIGHT; ++y) {
         int at = index_of(local.x, y, local.z);
-        int beside = content_in(grid[at + step_x]);
-        int behind = content_in(grid[at + TALL_SIDE]);
-        if (!is_open(beside) && !is_open(behind)) grid[at] |= CUT;
+        int beside = within ? content_in(grid[at + step_x]) : 0;
+        int behind = within ? content_in(grid[at + TALL_SIDE]) : 0;
+        grid[at] = (grid[at] & ~CUT) | (is_open(beside) || is_open(behind) ? 0 : CUT);
     }
 }
 
@@ -192,8 +203,9 @@ void main() {
     int lane = int(gl_LocalInvocationIndex);
     if (lane == 0) {
         in_block = 0;
-        wet_layers = int[2](0, 0);
-        roomy_layers = int[2](0, 0);
+        wet_layers = 0;
+        roomy_layers = 0;
+        changed_parts = int[3](0, 0, 0);
     }
     barrier();
     int found = 0;
@@ -216,9 +228,14 @@ void main() {
             head[column + LAYER * y] = inside_world(cell) ? imageLoad(acting_head, cell).r : 0u;
         }
 #endif
-        for (int fall_pass = 0; fall_pass < 2; ++fall_pass)
-            for (int y = 1; y < TALL_HEIGHT; ++y) fall(column + LAYER * y, corner.y + y, fall_pass == 0);
+        // Where nothing falls in the first, nothing does in the second.
+        bool changed_before = changed_here;
+        changed_here = false;
+        for (int y = 1; y < TALL_HEIGHT; ++y) fall(column + LAYER * y, corner.y + y, true);
+        for (int y = 1; y < TALL_HEIGHT && changed_here; ++y) fall(column + LAYER * y, corner.y + y, false);
+        changed_here = changed_here || changed_before;
     }
+    tell_changes(0);
     barrier();
     if ((moving & HAS_SAND) != 0) {
         uint sub = hash2(chance, 99u);
@@ -227,6 +244,7 @@ void main() {
             ivec3 first = start + 2 * ivec3(i % 8, i / 8 % 4, i / 32);
             if (all(lessThan(first + 1, ivec3(TALL_SIDE, TALL_HEIGHT, TALL_SIDE)))) slide_sand(first, sub);
         }
+        tell_changes(0);
         barrier();
     }
     if ((moving & HAS_WATER) != 0) {
@@ -235,13 +253,17 @@ void main() {
         for (int pass = 0; pass < 2; ++pass) {
             int direction = diagonal ? (int(chance >> 29 & 1u) == pass ? 2 : 3)
                                      : (int(chance >> 30 & 1u) == pass ? 0 : 1);
+            // What the first pass left as it was stands on what it stood on.
+            bool stale = pass == 0 || changed_parts[1] != 0;
             ivec2 layers = ivec2(0);
-            for (int column = lane; column < LAYER; column += TALL_INVOCATIONS)
+            for (int column = stale ? lane : LAYER; column < LAYER; column += TALL_INVOCATIONS)
                 find_supports(column, corner.y, layers);
-            atomicOr(wet_layers[pass], layers.x);
-            atomicOr(roomy_layers[pass], layers.y);
+            for (bool finds = any(notEqual(layers, ivec2(0))); finds; finds = false) {
+                atomicOr(wet_layers, layers.x);
+                atomicOr(roomy_layers, layers.y);
+            }
             barrier();
-            int live_layers = wet_layers[pass] & roomy_layers[pass];
+            int live_layers = wet_layers & roomy_layers;
             for (int column = diagonal ? lane : LAYER; column < LAYER; column += TALL_INVOCATIONS)
                 find_cuts(local_of(column), direction == 2 ? 1 : -1);
             barrier();
@@ -252,6 +274,7 @@ void main() {
                 if ((live_layers >> y & 1) == 0) line.count = 0;
                 level_line(line, rule, line_chance(chance, direction, y, number));
             }
+            tell_changes(1 + pass);
             barrier();
         }
 #ifdef PRESSURE
@@ -265,6 +288,9 @@ void main() {
 #endif
     }
 
+#ifndef PRESSURE
+    if ((changed_parts[0] | changed_parts[1] | changed_parts[2]) == 0) return;
+#endif
     for (int column = lane; column < LAYER; column += TALL_INVOCATIONS)
         for (int y = 0; y < TALL_HEIGHT; ++y) {
             ivec3 cell = corner + local_of(column) + ivec3(0, y, 0);

@@ -7,7 +7,7 @@
 
 layout(local_size_x = WIDE_SIDE) in;
 
-shared int water_here, room_here;
+shared int water_here, room_here, changed;
 
 void main() {
     if (work_group() >= blocks.count) return;
@@ -18,6 +18,7 @@ void main() {
     if (lane == 0) {
         water_here = 0;
         room_here = 0;
+        changed = 0;
     }
     barrier();
     bool water = false;
@@ -47,8 +48,10 @@ void main() {
         bool along_x = int(chance >> 30 & 1u) == pass;
         Line line = Line(along_x ? lane * WIDE_SIDE : lane, along_x ? 1 : WIDE_SIDE, WIDE_SIDE, 0);
         level_line(line, rule, line_chance(chance, along_x ? 0 : 1, 1, lane));
+        if (changed_here) changed = 1;
         barrier();
     }
+    if (changed == 0) return;
 
     for (int z = 0; z < WIDE_SIDE; ++z) {
         ivec3 cell = corner + ivec3(lane, 0, z);

@@ -16,7 +16,6 @@ TraceFeatures features_of(const Settings& settings, const MaterialTable& materia
         const bool clear = id == MATERIAL_WATER || id == MATERIAL_GLASS;
         if (clear) features.rough |= m.roughness * m.roughness >= ALPHA_SMOOTH;
         if (!clear) features.coated |= m.ior != 1 || m.metallic > 0;
-        if (!clear) features.metal |= m.metallic > 0;
         features.clear |= clear;
         features.emitters |= id != MATERIAL_WATER && shines(m);  // as in lib/emitter_tree
     }
@@ -47,7 +46,6 @@ TraceFeatures with(const TraceFeatures& a, const TraceFeatures& b) {
             .clear = a.clear || b.clear,
             .rough = a.rough || b.rough,
             .coated = a.coated || b.coated,
-            .metal = a.metal || b.metal,
             .sun = a.sun || b.sun,
             .sky = a.sky || b.sky,
             .emitters = a.emitters || b.emitters,

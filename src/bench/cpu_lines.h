@@ -4,21 +4,16 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "bench/cpu_cells.h"
 #include "shared/hash.h"
-#include "shared/materials.h"
 
 namespace tarn::cpu {
 
-// What a cell holds: 0..full quanta of water, sand, or closed; and flags that levelling keeps.
-constexpr int full = static_cast<int>(QUANTA_PER_VOXEL);
-constexpr int sand = 32;
-constexpr int closed = 64;
+// Of a cell: what it holds, and flags that levelling keeps.
 constexpr int content_bits = 127;
 constexpr int stands = 128;    // something holds what is in it
 constexpr int on_water = 256;  // and that is water
 constexpr int cut_next = 512;  // no way to the next cell of a diagonal line
-
-using Cell = std::int16_t;
 
 struct LineRule {
     int film;             // quanta a cell that stay on dry ground
@@ -36,9 +31,6 @@ struct Line {
 
 inline int content(int cell) {
     return cell & content_bits;
-}
-inline bool is_open(int content) {
-    return content <= full;
 }
 inline bool takes_part(int cell) {
     return (cell & stands) != 0 && is_open(content(cell));

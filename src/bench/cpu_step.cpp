@@ -1,11 +1,9 @@
 #include "bench/cpu_step.h"
 
 #include <array>
-#include <atomic>
 #include <cstring>
-#include <thread>
-#include <vector>
 
+#include "bench/cpu_cells.h"
 #include "bench/cpu_lines.h"
 #include "core/error.h"
 #include "shared/water.h"
@@ -16,11 +14,6 @@ namespace tarn {
 namespace {
 
 using cpu::Cell;
-
-// Cells at once in a register of SSE2 and of AVX2.
-using Bytes16 = std::uint8_t __attribute__((vector_size(16)));
-using Bytes32 = std::uint8_t __attribute__((vector_size(32)));
-constexpr int row_max = world_side_max_vox + 2 * WIDE_SIDE;  // cells, with what lies beyond the world
 
 // A row of blocks along x: `first` is the least cell of its first, which may lie outside.
 struct Strip {
@@ -41,66 +34,6 @@ struct Strip {
     }
 };
 
-// The vectors that AVX2 code passes around stay inside functions that are inlined into it.
-#define TARN_INLINE inline __attribute__((always_inline))
-
-// By cell of a row of the world: whether it moves, and whether it is room to move in (neither solid nor full
-// water).
-struct alignas(32) Found {
-    std::array<std::uint8_t, row_max> moves, room;
-};
-
-template <typename Bytes>
-TARN_INLINE void find_matter(const std::uint8_t* row, int n, Found& found) {
-    constexpr int lanes = sizeof(Bytes);
-    int x = 0;
-    for (; x + lanes <= n; x += lanes) {
-        Bytes cells;
-        Bytes moves;
-        Bytes room;
-        std::memcpy(&cells, row + x, lanes);
-        std::memcpy(&moves, found.moves.data() + x, lanes);
-        std::memcpy(&room, found.room.data() + x, lanes);
-        const Bytes matter = reinterpret_cast<Bytes>((cells & 0xf0) == MATERIAL_WATER) |
-                             reinterpret_cast<Bytes>(cells == MATERIAL_SAND);
-        moves |= matter;
-        room |= (matter & reinterpret_cast<Bytes>(cells != MATERIAL_WATER_FULL)) |
-                reinterpret_cast<Bytes>(cells == MATERIAL_AIR);
-        std::memcpy(found.moves.data() + x, &moves, lanes);
-        std::memcpy(found.room.data() + x, &room, lanes);
-    }
-    for (; x < n; ++x) {
-        const bool matter = is_water(row[x]) || row[x] == MATERIAL_SAND;
-        if (matter) found.moves[x] = 0xff;
-        if (row[x] == MATERIAL_AIR || (matter && row[x] != MATERIAL_WATER_FULL)) found.room[x] = 0xff;
-    }
-}
-
-TARN_INLINE bool any_in(const std::array<std::uint8_t, row_max>& flags, int from, int end) {
-    bool found = false;
-    for (int x = from; x < end; ++x) found = found || flags[x] != 0;
-    return found;
-}
-
-using Contents = std::array<Cell, 256>;
-constexpr Contents make_contents() {
-    Contents contents{};
-    for (int byte = 0; byte < 256; ++byte) {
-        const auto b = static_cast<std::uint32_t>(byte);
-        contents[byte] = static_cast<Cell>(b == MATERIAL_AIR    ? 0
-                                           : b == MATERIAL_SAND ? cpu::sand
-                                           : is_water(b)        ? static_cast<int>(quanta_of(b))
-                                                                : cpu::closed);
-    }
-    return contents;
-}
-constexpr Contents contents_of_bytes = make_contents();
-
-std::uint8_t byte_of(int content) {
-    return static_cast<std::uint8_t>(content == cpu::sand ? MATERIAL_SAND
-                                                          : water_cell(static_cast<std::uint32_t>(content)));
-}
-
 // `count` cells from x on of the row (y, z), which may lie outside in part or whole.
 TARN_INLINE void load_row(const Strip& strip, int x, int y, int z, int count, Cell* to) {
     if (!strip.holds_row(y, z)) {
@@ -109,7 +42,7 @@ TARN_INLINE void load_row(const Strip& strip, int x, int y, int z, int count, Ce
     }
     const std::uint8_t* row = strip.row(y, z);
     for (int i = 0; i < count; ++i)
-        to[i] = x + i >= 0 && x + i < strip.size_vox.x ? contents_of_bytes[row[x + i]]
+        to[i] = x + i >= 0 && x + i < strip.size_vox.x ? cpu::contents_of_bytes[row[x + i]]
                                                        : static_cast<Cell>(cpu::closed);
 }
 
@@ -118,7 +51,7 @@ TARN_INLINE void store_row(const Strip& strip, int x, int y, int z, int count, c
                            const Cell* before) {
     for (int i = 0; i < count; ++i) {
         const int content = cpu::content(now[i]);
-        if (content != cpu::content(before[i])) strip.row(y, z)[x + i] = byte_of(content);
+        if (content != cpu::content(before[i])) strip.row(y, z)[x + i] = cpu::byte_of(content);
     }
 }
 
@@ -292,18 +225,19 @@ TARN_INLINE void wide_block(const Strip& strip, int bx) {
 template <typename Bytes, bool tall>
 TARN_INLINE void run_strip(const Strip& strip) {
     constexpr int side = tall ? TALL_SIDE : WIDE_SIDE;
-    Found found;
+    cpu::Found found;
     std::fill_n(found.moves.begin(), strip.size_vox.x, std::uint8_t{0});
     std::fill_n(found.room.begin(), strip.size_vox.x, std::uint8_t{0});
     for (int z = 0; z < side; ++z)
         for (int y = tall ? 0 : 1; y < (tall ? TALL_HEIGHT : WIDE_HEIGHT); ++y)
             if (strip.holds_row(strip.first.y + y, strip.first.z + z))
-                find_matter<Bytes>(strip.row(strip.first.y + y, strip.first.z + z), strip.size_vox.x, found);
+                cpu::find_matter<Bytes>(strip.row(strip.first.y + y, strip.first.z + z), strip.size_vox.x,
+                                        found);
     for (int bx = 0; bx < strip.blocks; ++bx) {
         const int x = strip.first.x + bx * side;
         const int from = std::max(x, 0);
         const int end = std::min(x + side, strip.size_vox.x);
-        if (!any_in(found.moves, from, end) || !any_in(found.room, from, end)) continue;
+        if (!cpu::any_in(found.moves, from, end) || !cpu::any_in(found.room, from, end)) continue;
         if constexpr (tall)
             tall_block(strip, bx);
         else
@@ -312,17 +246,17 @@ TARN_INLINE void run_strip(const Strip& strip) {
 }
 
 void run_tall_plain(const Strip& strip) {
-    run_strip<Bytes16, true>(strip);
+    run_strip<cpu::Bytes16, true>(strip);
 }
 void run_wide_plain(const Strip& strip) {
-    run_strip<Bytes16, false>(strip);
+    run_strip<cpu::Bytes16, false>(strip);
 }
 #if defined(__x86_64__)
 __attribute__((target("avx2"))) void run_tall_avx2(const Strip& strip) {
-    run_strip<Bytes32, true>(strip);
+    run_strip<cpu::Bytes32, true>(strip);
 }
 __attribute__((target("avx2"))) void run_wide_avx2(const Strip& strip) {
-    run_strip<Bytes32, false>(strip);
+    run_strip<cpu::Bytes32, false>(strip);
 }
 #endif
 
@@ -342,27 +276,20 @@ void run_blocks(Cells& cells, glm::ivec3 block, std::uint32_t seed, std::uint32_
     const glm::ivec3 size = cells.size_vox();
     const glm::ivec3 offset = block_offset_vox(seed, tick, block);
     const glm::ivec3 count = (size + offset + block - 1) / block;
-    std::atomic<int> next{0};
-    const auto work = [&] {
-        for (int i = next++; i < count.y * count.z; i = next++) {
-            const int by = i % count.y;
-            const int bz = i / count.y;
-            run({.bytes = cells.bytes().data(),
-                 .size_vox = size,
-                 .first = glm::ivec3(0, by, bz) * block - offset,
-                 .by = by,
-                 .bz = bz,
-                 .blocks = count.x,
-                 .seed = seed,
-                 .tick = tick,
-                 .film_threshold = step.film_threshold,
-                 .diagonal = hash2(step.seed ^ SALT_DIAGONAL, tick) % 3 == 0});
-        }
-    };
-    std::vector<std::thread> others;
-    for (int i = 1; i < step.threads; ++i) others.emplace_back(work);
-    work();
-    for (std::thread& other : others) other.join();
+    cpu::for_each(count.y * count.z, step.threads, [&](int i) {
+        const int by = i % count.y;
+        const int bz = i / count.y;
+        run({.bytes = cells.bytes().data(),
+             .size_vox = size,
+             .first = glm::ivec3(0, by, bz) * block - offset,
+             .by = by,
+             .bz = bz,
+             .blocks = count.x,
+             .seed = seed,
+             .tick = tick,
+             .film_threshold = step.film_threshold,
+             .diagonal = hash2(step.seed ^ SALT_DIAGONAL, tick) % 3 == 0});
+    });
 }
 
 }  // namespace

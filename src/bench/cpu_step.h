@@ -20,6 +20,7 @@ struct CpuStep {
 };
 
 // One tick, in place.
+void cpu_block_tick(Cells& cells, std::uint32_t tick, const CpuStep& step);
 void cpu_level_tick(Cells& cells, std::uint32_t tick, const CpuStep& step);
 
 }  // namespace tarn

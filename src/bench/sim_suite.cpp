@@ -66,22 +66,37 @@ double copy_ms(const std::vector<std::uint8_t>& from, std::vector<std::uint8_t>&
     return watch.ms();
 }
 
+// Ticks of the tier `block` with all awake; leaves the world to the scene's own tier.
+double block_tick_ms(BenchWorld& world, int ticks) {
+    const Settings own = world.scene.settings;
+    world.scene.settings.water_tier = WaterTier::Block;
+    // Another tier wakes all, which costs more than a tick.
+    world.simulation.step(1, world.scene.settings);
+    const double ms = tick_ms(world, ticks);
+    world.scene.settings = own;
+    world.simulation.step(1, own);
+    return ms;
+}
+
 // Ticks of a world of its own, from the scene's start as the GPU's is.
 class CpuTicks {
   public:
-    CpuTicks(const BenchWorld& world, int threads, CpuVectors vectors)
-        : cells_(world.scene.cells),
+    using Tick = void (*)(Cells&, std::uint32_t tick, const CpuStep&);
+    CpuTicks(const BenchWorld& world, Tick run, int threads, CpuVectors vectors)
+        : run_(run),
+          cells_(world.scene.cells),
           step_{.seed = world.scene.seed,
                 .film_threshold = world.scene.settings.film_threshold,
                 .threads = threads,
                 .vectors = vectors} {}
     double ms(int ticks) {
         const Stopwatch watch;
-        for (int i = 0; i < ticks; ++i) cpu_level_tick(cells_, tick_++, step_);
+        for (int i = 0; i < ticks; ++i) run_(cells_, tick_++, step_);
         return watch.ms() / ticks;
     }
 
   private:
+    Tick run_;
     Cells cells_;
     CpuStep step_;
     std::uint32_t tick_ = 0;
@@ -91,9 +106,11 @@ void measure_world(int side_vox, const BenchOptions& options, BenchResult& resul
     const std::string scene = bench_scene_name(side_vox);
     options.progress(fmt::format("sim: building {}", scene));
     const auto world = make_bench_world(side_vox);
-    CpuTicks plain(*world, options.threads, CpuVectors::Plain);
     const bool has_avx2 = has_vectors(CpuVectors::Avx2);
-    CpuTicks vectors(*world, options.threads, has_avx2 ? CpuVectors::Avx2 : CpuVectors::Plain);
+    const CpuVectors best = has_avx2 ? CpuVectors::Avx2 : CpuVectors::Plain;
+    CpuTicks level(*world, cpu_level_tick, options.threads, best);
+    CpuTicks level_plain(*world, cpu_level_tick, options.threads, CpuVectors::Plain);
+    CpuTicks block(*world, cpu_block_tick, options.threads, best);
     const auto small = side_vox > small_side_vox ? make_bench_world(small_side_vox) : nullptr;
     std::vector<std::uint8_t> copy(world->scene.cells.count());
     std::vector<Contestant> contestants;
@@ -121,16 +138,20 @@ void measure_world(int side_vox, const BenchOptions& options, BenchResult& resul
     });
     if (small) {
         contestants.push_back(
-            {.suite = "sim", .scene = scene, .who = "asleep, 64^3", .run = [&] {
+            {.suite = "sim", .scene = scene, .who = "asleep 64^3", .run = [&] {
                  small->simulation.put_to_sleep();
                  return std::vector<Sample>{{"tick", "ms", tick_ms(*small, ticks_a_sample_asleep)}};
              }});
     }
-    add("cpu awake", [&] { return std::vector<Sample>{{"tick", "ms", vectors.ms(ticks_a_sample)}}; });
-    if (has_avx2)
-        add("cpu awake, no AVX2", [&] {
-            return std::vector<Sample>{{"tick", "ms", plain.ms(ticks_a_sample)}};
-        });
+    const auto add_cpu = [&](const char* who, CpuTicks& cpu) {
+        add(who, [&] { return std::vector<Sample>{{"tick", "ms", cpu.ms(ticks_a_sample)}}; });
+    };
+    add_cpu("cpu awake", level);
+    if (has_avx2) add_cpu("cpu awake without AVX2", level_plain);
+    add("awake block", [&] {
+        return std::vector<Sample>{{"tick", "ms", block_tick_ms(*world, ticks_a_sample)}};
+    });
+    add_cpu("cpu awake block", block);
     add("copy", [&] {
         const double ms = copy_ms(world->scene.cells.bytes(), copy, options.threads);
         return std::vector<Sample>{{"cells", "ms", ms}};

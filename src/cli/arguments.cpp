@@ -173,6 +173,10 @@ void bench_options(CLI::App* bench, Arguments& arguments) {
         "  edit   strokes of the brush of radius 1, 8 and 32\n"
         "  start  the program's start to its first frame, with empty and with filled caches of shaders; peak "
         "memory\n"
+        "  variants\n"
+        "         frames with code compiled in that their scene has no need of, against the same without; "
+        "smallest "
+        "size\n"
         "Medians and the spread between quartiles; `bars` are ratios within the run. Exit code 1: "
         "contestants do\n"
         "not find the same, or a world does not come to rest.");

@@ -25,7 +25,6 @@ gl::ProgramDesc describe(const TraceFeatures& features) {
     define(features.clear, "TRACE_CLEAR");
     define(features.rough, "TRACE_ROUGH");
     define(features.coated, "TRACE_COATED");
-    define(features.metal, "TRACE_METAL");
     define(features.sun, "TRACE_SUN");
     define(features.sky, "TRACE_SKY");
     define(features.emitters, "TRACE_EMITTERS");
@@ -41,8 +40,10 @@ TracePass::TracePass(const TraceFeatures& features) : features_(features), progr
 void TracePass::draw(const Inputs& inputs, const gl::Framebuffer& target) const {
     inputs.cells.bind(BINDING_CELLS);
     if (features_.skip) inputs.brick_distance.bind(BINDING_BRICK_DISTANCE);
-    if (features_.coated) inputs.albedo_table.bind(BINDING_ALBEDO_TABLE);
-    if (features_.metal) inputs.metal_albedo_table.bind(BINDING_METAL_ALBEDO_TABLE);
+    if (features_.coated) {
+        inputs.albedo_table.bind(BINDING_ALBEDO_TABLE);
+        inputs.metal_albedo_table.bind(BINDING_METAL_ALBEDO_TABLE);
+    }
     if (features_.rough) inputs.glass_albedo_table.bind(BINDING_GLASS_ALBEDO_TABLE);
     if (inputs.emitters != nullptr) inputs.emitters->bind();
     inputs.rejected.bind_storage(0);

@@ -18,7 +18,6 @@ struct TraceFeatures {
     bool clear = false;         // water or glass
     bool rough = false;         // some of it rough
     bool coated = false;        // opaque materials with an interface, metals
-    bool metal = false;         // metals among them
     bool sun = false;           // sampled
     bool sky = false;           // sampled
     bool emitters = false;      // emissive voxels, sampled

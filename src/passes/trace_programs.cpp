@@ -14,8 +14,8 @@ namespace {
 // serves there is time.
 constexpr std::chrono::milliseconds settles{1000};
 
-std::array<bool, 10> flags(const TraceFeatures& f) {
-    return {f.skip, f.clear, f.rough, f.coated, f.metal, f.sun, f.sky, f.emitters, f.smooth_water, f.count};
+std::array<bool, 9> flags(const TraceFeatures& f) {
+    return {f.skip, f.clear, f.rough, f.coated, f.sun, f.sky, f.emitters, f.smooth_water, f.count};
 }
 
 // Without what only decides how light is found and how the world is walked: pictures agree up to noise.

@@ -276,6 +276,8 @@ class Window : public Platform {
         if (action == GLFW_RELEASE) return;
         if (code == GLFW_KEY_Q && (mods & GLFW_MOD_CONTROL) != 0)
             glfwSetWindowShouldClose(handle_.get(), GLFW_TRUE);
+        // Shift counts for the key pressed with it, also where both are up again by the next frame.
+        if ((mods & GLFW_MOD_SHIFT) != 0) pressed_[static_cast<std::size_t>(Key::Fast)] = true;
         for (const KeyBinding& binding : key_bindings) {
             if (binding.code != code || (action == GLFW_REPEAT && !repeats(binding.key))) continue;
             const bool redo = binding.key == Key::Undo && (mods & GLFW_MOD_SHIFT) != 0;

@@ -277,6 +277,29 @@ TEST_F(BricksTest, distances_follow_random_edits_and_what_moves) {
     }
 }
 
+// What is nearest, once a stone is gone, may lie as far beyond the bricks that are computed anew as they
+// reach.
+TEST_F(BricksTest, distances_reach_beyond_what_is_computed_anew) {
+    for (int axis = 0; axis < 3; ++axis) {
+        SCOPED_TRACE(axis);
+        glm::ivec3 size(20);
+        size[axis] = 700;
+        Scene scene;
+        scene.cells = Cells(size);
+        constexpr int apart = 2 * (BRICK_DISTANCE_MAX - 1) - 1;
+        std::array<glm::ivec3, 3> stones{};
+        for (int i = 0; i < 3; ++i) {
+            stones[i] = glm::ivec3(10);
+            stones[i][axis] = (20 + i * apart) * BRICK_SIDE;
+            scene.cells.at(stones[i]) = MATERIAL_STONE;
+        }
+        gl::Timers timers;
+        Simulation simulation(scene, timers);
+        simulation.write({{stones[1], MATERIAL_STONE, MATERIAL_AIR}});
+        expect_chamfered_distances(simulation, simulation.read_cells());
+    }
+}
+
 TEST_F(BricksTest, single_cells_are_read_back) {
     Scene scene;
     scene.cells = make_soup({7, 13, 5}, Soup::AllBytes, 3);

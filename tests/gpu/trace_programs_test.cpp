@@ -65,9 +65,9 @@ TEST_F(TraceProgramsTest, WhatTheSceneHasNoNeedOfChangesNoBit) {
         return features;
     };
     const TraceFeatures clear = only(&TraceFeatures::clear);
-    TraceFeatures rough = clear, smooth_water = clear, metal = only(&TraceFeatures::coated), all = rough;
-    rough.rough = smooth_water.smooth_water = metal.metal = true;
-    all.rough = all.smooth_water = all.coated = all.metal = all.emitters = all.sun = true;
+    TraceFeatures rough = clear, smooth_water = clear, all = rough;
+    rough.rough = smooth_water.smooth_water = true;
+    all.rough = all.smooth_water = all.coated = all.emitters = all.sun = true;
     const TraceFeatures coated = only(&TraceFeatures::coated), emitters = only(&TraceFeatures::emitters);
     struct Case {
         Scene scene;
@@ -75,8 +75,8 @@ TEST_F(TraceProgramsTest, WhatTheSceneHasNoNeedOfChangesNoBit) {
     };
     Scene night = room(std::string(pool) + lamp);
     night.settings.sun_irradiance = glm::vec3(0);
-    for (const Case& c : {Case{room(""), {clear, rough, smooth_water, coated, metal, emitters, all}},
-                          Case{room(pool), {rough, coated, metal, emitters, all}},
+    for (const Case& c : {Case{room(""), {clear, rough, smooth_water, coated, emitters, all}},
+                          Case{room(pool), {rough, coated, emitters, all}},
                           Case{night, {only(&TraceFeatures::sun), rough, coated, all}}}) {
         gl::Timers timers;
         const Simulation simulation(c.scene, timers);
@@ -165,7 +165,6 @@ TEST_F(TraceProgramsTest, ProgramsOfAnEarlierRunMakeTheSamePicture) {
                             .clear = true,
                             .rough = true,
                             .coated = true,
-                            .metal = true,
                             .sun = true,
                             .emitters = true,
                             .smooth_water = true};
