@@ -7,7 +7,7 @@
 #define BINDING_MATERIALS 1
 // Textures that every ray needs; a pass's own inputs are 4 to 11
 #define BINDING_CELLS 0
-#define BINDING_BRICK_DISTANCE 1
+#define BINDING_BRICK_ROOMS 1
 #define BINDING_ALBEDO_TABLE 2
 #define BINDING_BRICK_CHANGED 3
 #define BINDING_FIRST_INPUT 4
@@ -31,7 +31,5 @@
 // Side of a brick in voxels, and its logarithm. 4: a primary ray over the lake takes 17 steps, with 8 it took 28
 #define BRICK_SIDE 4
 #define BRICK_SHIFT 2
-// Largest stored distance between bricks
-#define BRICK_DISTANCE_MAX 31
 
 #endif

@@ -247,7 +247,7 @@ const gl::Texture& Renderer::render(const Simulation& simulation, const Settings
     if (features.emitters) p.update_emitters(simulation);
     p.views.prepare(settings, *p.targets, p.has_history);
     p.trace_pass(features).record({.cells = simulation.cells(),
-                                   .brick_distance = simulation.brick_distance(),
+                                   .brick_rooms = simulation.brick_rooms(),
                                    .albedo_table = p.albedo.dielectric,
                                    .metal_albedo_table = p.albedo.metal,
                                    .glass_albedo_table = p.albedo.glass,

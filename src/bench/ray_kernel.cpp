@@ -56,7 +56,7 @@ double RayKernel::run(const Simulation& simulation) {
     frame_.upload(std::span(&block, 1));
     frame_.bind_uniform(BINDING_FRAME);
     simulation.cells().bind(BINDING_CELLS);
-    simulation.brick_distance().bind(BINDING_BRICK_DISTANCE);
+    simulation.brick_rooms().bind(BINDING_BRICK_ROOMS);
     rays_.bind_storage(0);
     program_.use();
     glFinish();

@@ -10,10 +10,20 @@ namespace {
 
 constexpr glm::ivec3 local_size{8, 8, 1};
 
-gl::Program distance_program(const char* axis, bool first) {
-    return gl::Program({.label = "brick distance",
-                        .compute = "pass/brick_distance.comp",
-                        .defines = {{"AXIS", axis}, {"FIRST", first ? "1" : "0"}}});
+gl::Program rooms_program(const char* axis) {
+    return gl::Program(
+        {.label = "brick rooms", .compute = "pass/brick_rooms.comp", .defines = {{"AXIS", axis}}});
+}
+
+// A value that no brick has: the first call looks at every line.
+void make_unknown(const gl::Texture& texture) {
+    constexpr std::array<std::uint8_t, 2> unknown{255, 255};
+    glClearTexImage(texture.name(), 0, GL_RG_INTEGER, GL_UNSIGNED_BYTE, unknown.data());
+}
+
+std::size_t lines_of(glm::ivec3 size) {
+    return std::size_t{1} * size.x * size.z + std::size_t{1} * size.y * size.z +
+           std::size_t{1} * size.x * size.y;
 }
 
 }  // namespace
@@ -24,16 +34,15 @@ glm::ivec3 bricks_of(glm::ivec3 size_vox) {
 
 BricksPass::BricksPass(glm::ivec3 size_bricks)
     : occupancy_program_({.label = "brick occupancy", .compute = "pass/brick_occupancy.comp"}),
-      // Up and down first: from the open sky the ground is found there, and bounds the searches after.
-      distance_program_{distance_program("1", true), distance_program("0", false),
-                        distance_program("2", false)},
+      rooms_program_{rooms_program("0"), rooms_program("1"), rooms_program("2")},
       occupancy_({.label = "brick occupancy", .format = GL_RG8UI, .size = size_bricks}),
-      between_({.label = "brick distance, between axes", .format = GL_RG8UI, .size = size_bricks}),
+      rooms_up_({.label = "brick rooms along y", .format = GL_RG8UI, .size = size_bricks}),
+      rooms_side_({.label = "brick rooms along y and x", .format = GL_RG16UI, .size = size_bricks}),
       last_change_("last change", sizeof(std::uint32_t)),
-      groups_("brick distance groups", 3 * sizeof(std::uint32_t)) {
-    // A value that no brick has: the first call computes every distance.
-    constexpr std::array<std::uint8_t, 2> unknown{255, 255};
-    glClearTexImage(occupancy_.name(), 0, GL_RG_INTEGER, GL_UNSIGNED_BYTE, unknown.data());
+      groups_("brick room groups", 3 * sizeof(glm::uvec3)),
+      lines_("marked lines of bricks", lines_of(size_bricks) * sizeof(std::uint32_t)) {
+    for (const gl::Texture* texture : {&occupancy_, &rooms_up_, &rooms_side_}) make_unknown(*texture);
+    lines_.clear();
 }
 
 void BricksPass::record(const Inputs& in, const Outputs& out, gl::Timers& timers) const {
@@ -43,29 +52,36 @@ void BricksPass::record(const Inputs& in, const Outputs& out, gl::Timers& timers
         groups_.clear();
         groups_.bind_storage(0);
         last_change_.bind_storage(1);
+        lines_.bind_storage(2);
         in.cells.bind(BINDING_CELLS);
         in.brick_changed.bind_image(0, GL_READ_ONLY);
         occupancy_.bind_image(1, GL_READ_WRITE);
+        out.brick_rooms.bind_image(2, GL_WRITE_ONLY);
         occupancy_program_.set("size_bricks", size_bricks);
-        occupancy_program_.set("distance_groups", glm::uvec3((size_bricks + local_size - 1) / local_size));
+        occupancy_program_.set("line_groups", glm::uvec3((size_bricks + 7) / 8));
         occupancy_program_.set("version", in.version);
         occupancy_program_.dispatch_for(size_bricks, local_size);
-        glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
-                        GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+        glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT |
+                        GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
+                        GL_BUFFER_UPDATE_BARRIER_BIT);
     }
-    const auto scope = timers.scope("distance");
+    const auto scope = timers.scope("rooms");
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, groups_.name());
-    const gl::Texture* source = &occupancy_;
-    for (int i = 0; i < 3; ++i) {
-        const gl::Texture& target = i == 1 ? between_ : out.brick_distance;
-        const gl::Program& program = distance_program_[i];
+    struct Step {
+        int axis;
+        const gl::Texture &source, &target;
+    };
+    for (const Step& step : {Step{1, occupancy_, rooms_up_}, Step{0, rooms_up_, rooms_side_},
+                             Step{2, rooms_side_, out.brick_rooms}}) {
+        const gl::Program& program = rooms_program_[step.axis];
         program.set("size_bricks", size_bricks);
-        source->bind(BINDING_FIRST_INPUT);
-        target.bind_image(0, GL_WRITE_ONLY);
+        program.set("version", in.version);
+        step.source.bind(BINDING_FIRST_INPUT);
+        step.target.bind_image(0, GL_READ_WRITE);
         program.use();
-        glDispatchComputeIndirect(0);
-        glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-        source = &target;
+        glDispatchComputeIndirect(static_cast<GLintptr>(sizeof(glm::uvec3)) * step.axis);
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
+                        GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
     }
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
 }
@@ -78,7 +94,7 @@ std::uint32_t BricksPass::last_change() const {
 
 void BricksPass::poll_reload(std::vector<std::string>& messages) {
     for (gl::Program* program :
-         {&occupancy_program_, &distance_program_[0], &distance_program_[1], &distance_program_[2]})
+         {&occupancy_program_, &rooms_program_[0], &rooms_program_[1], &rooms_program_[2]})
         if (auto message = program->poll_reload()) messages.push_back(*message);
 }
 

@@ -31,7 +31,7 @@ class TracePass {
   public:
     struct Inputs {
         const gl::Texture& cells;
-        const gl::Texture& brick_distance;
+        const gl::Texture& brick_rooms;
         const gl::Texture& albedo_table;
         const gl::Texture& metal_albedo_table;
         const gl::Texture& glass_albedo_table;
