@@ -135,7 +135,7 @@ bool is_air_to_water(uint a, uint b) {
 }
 
 uint medium_at(ivec3 cell, vec3 point) {
-    uint value = inside_world(cell) ? cell_byte(cell) : MATERIAL_AIR;
+    uint value = cell_byte(cell);
     bool dry = is_partly_filled(value) && point.y >= surface_height(cell, value);
     return dry ? MATERIAL_AIR : material_of(value);
 }

@@ -7,9 +7,11 @@
 #include "shared/materials.h"
 #include "shared/rooms.h"
 
-layout(binding = BINDING_CELLS) uniform usampler3D cells;
+// Images, which give 0 beyond their ends: llvmpipe reads a texel of them in a third of the instructions of texelFetch,
+// which looks for its mip level first.
+layout(r8ui, binding = IMAGE_CELLS) readonly restrict uniform uimage3D cells;
 #ifdef TRAVERSAL_SKIP
-layout(binding = BINDING_BRICK_ROOMS) uniform usampler3D brick_rooms;
+layout(rg32ui, binding = IMAGE_BRICK_ROOMS) readonly restrict uniform uimage3D brick_rooms;
 #endif
 
 // Where a ray starts. `cell` may lie one outside the world (a ray that enters); `medium` is the material id around
@@ -45,8 +47,9 @@ const float TRAVERSAL_T_MAX = 1e30;
 int steps_walked = 0;  // of all rays so far
 #endif
 
+// Air beyond the world.
 uint cell_byte(ivec3 cell) {
-    uint value = texelFetch(cells, cell, 0).r;
+    uint value = imageLoad(cells, cell).r;
 #ifdef TRAVERSAL_THROUGH_WATER
     return is_water(value) ? MATERIAL_AIR : value;
 #else
@@ -124,8 +127,8 @@ RayHit trace_ray(RayStart start, vec3 dir, float t_max_vox) {
 
     ivec3 cell = start.cell;
     bool within = inside_world(cell);
-    Step next = step_of(texelFetch(brick_rooms, (cell >> BRICK_SHIFT) + ivec3(0, 0, layer), 0).rg | unknown, cell,
-                        room_shift);
+    ivec3 layers = ivec3(0, 0, layer);
+    Step next = step_of(imageLoad(brick_rooms, (cell >> BRICK_SHIFT) + layers).rg | unknown, cell, room_shift);
     if (!within) next = Step(0, ivec3(1), false);
     uint value = MATERIAL_AIR;
     uint beyond = medium;
@@ -135,16 +138,10 @@ RayHit trace_ray(RayStart start, vec3 dir, float t_max_vox) {
     int steps = 0;
     precise float t_surface = TRAVERSAL_NEVER;
     bool on_surface = false;
-    // Loops that run at most once: llvmpipe runs the body of a branch for lanes that do not take it.
-    for (bool once = next.may_meet && heads_for_surface; once; once = false) {
-        value = cell_byte(cell);
-        precise vec3 t = (vec3(at + 1) - origin) * inv_dir;
-        t_surface = (surface_height(cell, value) - start.origin_vox.y) * surface_inv;
-        on_surface = is_partly_filled(value) && t_surface <= min(t.x, min(t.y, t.z));
-    }
-    while (!on_surface) {
-        bool goes_on = true;
-        while (goes_on) {
+    // Steps, then a look at the voxel that they end in; at once where the ray may meet a surface in its first.
+    bool steps_on = !(next.may_meet && heads_for_surface);
+    for (bool looks_on = true; looks_on;) {
+        while (steps_on) {
             ++steps;
             ivec3 plane = (at | next.low) + next.reach;
             precise vec3 t = (vec3(plane) - origin) * inv_dir;
@@ -160,36 +157,37 @@ RayHit trace_ray(RayStart start, vec3 dir, float t_max_vox) {
                                  z_first ? t_next.z <= t_exit : t_next.z < t_exit);
             at = guess + ivec3(passed);
             cell = at ^ mirror;
+            next = step_of(imageLoad(brick_rooms, (cell >> BRICK_SHIFT) + layers).rg | unknown, cell, room_shift);
             within = all(lessThan(at, end));
-            next = step_of(texelFetch(brick_rooms, (cell >> BRICK_SHIFT) + ivec3(0, 0, layer), 0).rg | unknown, cell,
-                           room_shift);
-            goes_on = within && !next.may_meet && t_exit <= limit && steps < bound;
+            steps_on = within && !next.may_meet && t_exit <= limit && steps < bound;
         }
-        if (!(t_exit <= limit) || steps >= bound) break;
-        value = within ? cell_byte(cell) : MATERIAL_AIR;
+        bool over = !(t_exit <= limit) || steps >= bound;
+        value = cell_byte(cell);
         bool partly = is_partly_filled(value);
         t_surface = (surface_height(cell, value) - start.origin_vox.y) * surface_inv;
         bool below = (t_exit < t_surface) == rising;
         beyond = partly ? (below ? MATERIAL_WATER : MATERIAL_AIR) : material_of(value);
-        if (beyond != medium || !within) break;
+        if (over || steps == 0) beyond = medium;
         precise vec3 t = (vec3(at + 1) - origin) * inv_dir;
-        on_surface = partly && heads_for_surface && t_surface <= min(t.x, min(t.y, t.z));
+        on_surface = !over && partly && heads_for_surface && t_surface <= min(t.x, min(t.y, t.z));
+        looks_on = !over && within && beyond == medium && !on_surface;
+        steps_on = looks_on;
     }
 
 #ifdef TRACE_COUNT
     if (limit >= 0.0) steps_walked += steps;  // below 0 the ray was not asked for
 #endif
 
-    if (beyond != medium) {
-        ivec3 previous = cell;
-        previous[axis] -= 1 + 2 * mirror[axis];
-        return RayHit(HIT_FACE, t_exit > 0.0 ? t_exit : 0.0, previous, cell, axis, beyond, value, steps);
-    }
-    if (on_surface && t_surface <= limit) {
-        beyond = medium == MATERIAL_WATER ? MATERIAL_AIR : MATERIAL_WATER;
-        return RayHit(HIT_SURFACE, t_surface > 0.0 ? t_surface : 0.0, cell, cell, 1, beyond, value, steps);
-    }
-    return RayHit(HIT_NONE, t_max_vox, start.cell, start.cell, 0, MATERIAL_AIR, 0u, steps);
+    bool on_face = beyond != medium;
+    on_surface = on_surface && !on_face && t_surface <= limit;
+    if (on_surface) beyond = medium == MATERIAL_WATER ? MATERIAL_AIR : MATERIAL_WATER;
+    bool met = on_face || on_surface;
+    float t_met = max(on_face ? t_exit : t_surface, 0.0);
+    ivec3 previous = cell;
+    if (on_face) previous -= (1 + 2 * mirror) * ivec3(axis == 0, axis == 1, axis == 2);
+    return RayHit(on_face ? HIT_FACE : on_surface ? HIT_SURFACE : HIT_NONE, met ? t_met : t_max_vox,
+                  met ? previous : start.cell, met ? cell : start.cell, on_face ? axis : on_surface ? 1 : 0,
+                  met ? beyond : MATERIAL_AIR, met ? value : 0u, steps);
 }
 #else
 // The same, voxel by voxel.
@@ -213,7 +211,7 @@ RayHit trace_ray(RayStart start, vec3 dir, float t_max_vox) {
 #endif
     // Whether the ray heads for a surface in a partly filled voxel, and when it meets that of this voxel.
     bool heads_for_surface = !still.y && (medium == MATERIAL_WATER) == rising;
-    uint value = inside_world(cell) ? cell_byte(cell) : MATERIAL_AIR;
+    uint value = cell_byte(cell);
     precise float t_surface = (surface_height(cell, value) - start.origin_vox.y) * surface_inv;
     if (!heads_for_surface || !is_partly_filled(value)) t_surface = TRAVERSAL_NEVER;
 
@@ -236,7 +234,7 @@ RayHit trace_ray(RayStart start, vec3 dir, float t_max_vox) {
         cell = mix(next, plane - 1 + forward, bvec3(x_first, !x_first && !z_first, z_first));
 
         bool within = inside_world(cell);
-        value = within ? cell_byte(cell) : MATERIAL_AIR;
+        value = cell_byte(cell);
         bool partly = is_partly_filled(value);
         precise float t_level = (surface_height(cell, value) - start.origin_vox.y) * surface_inv;
         bool below = (t_exit < t_level) == rising;

@@ -16,14 +16,12 @@ struct WaterFace {
     float level;
 };
 
-uint byte_or_air(ivec3 cell) { return inside_world(cell) ? cell_byte(cell) : MATERIAL_AIR; }
-
 // Height of the water's surface in the column of `cell`, at most a voxel above or below it.
 float water_level(ivec3 cell, float otherwise) {
-    uint here = byte_or_air(cell);
+    uint here = cell_byte(cell);
     bool full = here == MATERIAL_WATER_FULL;
     ivec3 next = cell + ivec3(0, full ? 1 : -1, 0);
-    uint value = byte_or_air(next);
+    uint value = cell_byte(next);
     bool own = is_partly_filled(here) || (full && value == MATERIAL_AIR);
     bool of_next = full ? is_partly_filled(value) : here == MATERIAL_AIR && is_water(value);
     return own ? surface_height(cell, here) : of_next ? surface_height(next, value) : otherwise;

@@ -7,18 +7,19 @@
 #define BINDING_MATERIALS 1
 // Textures that every ray needs; a pass's own inputs are 4 to 11
 #define BINDING_CELLS 0
-#define BINDING_BRICK_ROOMS 1
 #define BINDING_ALBEDO_TABLE 2
 #define BINDING_BRICK_CHANGED 3
 #define BINDING_FIRST_INPUT 4
 #define BINDING_METAL_ALBEDO_TABLE 12
 #define BINDING_GLASS_ALBEDO_TABLE 13
 
-// Images of the passes that change cells
+// Images of the passes that change cells, and of rays: cells and brick rooms
 #define IMAGE_CELLS 0
 #define IMAGE_BRICK_CHANGED 1
 #define IMAGE_ACTING_HEAD 2
 #define IMAGE_BUILDING_HEAD 3
+#define IMAGE_BRICK_ROOMS 4
+#define IMAGE_BENCH_RAYS 5
 // Storage buffers of theirs; 0 is a pass's own
 #define STORAGE_CHANGED_TICK 1
 #define STORAGE_ACTIVE_NEXT 2

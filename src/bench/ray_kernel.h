@@ -28,7 +28,9 @@ class RayKernel {
   private:
     std::size_t count_;
     gl::Program program_;
-    gl::Buffer rays_, frame_;
+    int rows_;
+    gl::Texture rays_;  // as glsl/pass/rays.frag reads it
+    gl::Buffer frame_;
     gl::Texture result_;
     gl::Framebuffer target_;
 };

@@ -36,8 +36,8 @@ TracePass::TracePass(const TraceFeatures& features) : features_(features), progr
 
 void TracePass::record(const Inputs& inputs, const Outputs& outputs, gl::Timers& timers) const {
     const auto scope = timers.scope("trace");
-    inputs.cells.bind(BINDING_CELLS);
-    if (features_.skip) inputs.brick_rooms.bind(BINDING_BRICK_ROOMS);
+    inputs.cells.bind_image(IMAGE_CELLS, GL_READ_ONLY);
+    if (features_.skip) inputs.brick_rooms.bind_image(IMAGE_BRICK_ROOMS, GL_READ_ONLY);
     if (features_.coated) inputs.albedo_table.bind(BINDING_ALBEDO_TABLE);
     if (features_.metal) inputs.metal_albedo_table.bind(BINDING_METAL_ALBEDO_TABLE);
     if (features_.rough) inputs.glass_albedo_table.bind(BINDING_GLASS_ALBEDO_TABLE);

@@ -53,8 +53,8 @@ class GpuWorld {
         frame_.upload(std::span(&block, 1));
     }
     void bind() const {
-        cells_.bind(BINDING_CELLS);
-        rooms_.bind(BINDING_BRICK_ROOMS);
+        cells_.bind_image(IMAGE_CELLS, GL_READ_ONLY);
+        rooms_.bind_image(IMAGE_BRICK_ROOMS, GL_READ_ONLY);
         frame_.bind_uniform(BINDING_FRAME);
     }
 
