@@ -64,6 +64,10 @@ bool inside_world(ivec3 cell) {
 // True for water that leaves air above it in its voxel.
 bool is_partly_filled(uint value) { return is_water(value) && value != MATERIAL_WATER_FULL; }
 
+bool is_air_to_water(uint a, uint b) {
+    return (a == MATERIAL_AIR && b == MATERIAL_WATER) || (a == MATERIAL_WATER && b == MATERIAL_AIR);
+}
+
 // Height of the water surface in a partly filled voxel; exact.
 float surface_height(ivec3 cell, uint value) { return float(cell.y) + float(quanta_of(value)) * 0.0625; }
 
