@@ -35,6 +35,7 @@ struct RayHit {
     uint beyond;       // medium behind
     uint byte_beyond;  // of `cell`; 0 outside
     int steps;         // iterations, for cost views
+    int looks;         // cells read
 };
 
 // Components of a direction below this count as zero: over 1e7 voxels they move a ray by 1e-23.
@@ -140,6 +141,7 @@ RayHit trace_ray(RayStart start, vec3 dir, float t_max_vox) {
     int axis = 0;
     int bound = size.x + size.y + size.z + 4;
     int steps = 0;
+    int looks = 0;
     precise float t_surface = TRAVERSAL_NEVER;
     bool on_surface = false;
     // Steps, then a look at the voxel that they end in; at once where the ray may meet a surface in its first.
@@ -166,6 +168,7 @@ RayHit trace_ray(RayStart start, vec3 dir, float t_max_vox) {
             steps_on = within && !next.may_meet && t_exit <= limit && steps < bound;
         }
         bool over = !(t_exit <= limit) || steps >= bound;
+        ++looks;
         value = cell_byte(cell);
         bool partly = is_partly_filled(value);
         t_surface = (surface_height(cell, value) - start.origin_vox.y) * surface_inv;
@@ -191,7 +194,7 @@ RayHit trace_ray(RayStart start, vec3 dir, float t_max_vox) {
     if (on_face) previous -= (1 + 2 * mirror) * ivec3(axis == 0, axis == 1, axis == 2);
     return RayHit(on_face ? HIT_FACE : on_surface ? HIT_SURFACE : HIT_NONE, met ? t_met : t_max_vox,
                   met ? previous : start.cell, met ? cell : start.cell, on_face ? axis : on_surface ? 1 : 0,
-                  met ? beyond : MATERIAL_AIR, met ? value : 0u, steps);
+                  met ? beyond : MATERIAL_AIR, met ? value : 0u, steps, looks);
 }
 #else
 // The same, voxel by voxel.
@@ -255,13 +258,13 @@ RayHit trace_ray(RayStart start, vec3 dir, float t_max_vox) {
     if (beyond != medium) {
         ivec3 previous = cell;
         previous[axis] -= stride[axis];
-        return RayHit(HIT_FACE, t_exit > 0.0 ? t_exit : 0.0, previous, cell, axis, beyond, value, steps);
+        return RayHit(HIT_FACE, t_exit > 0.0 ? t_exit : 0.0, previous, cell, axis, beyond, value, steps, steps + 1);
     }
     if (t_surface <= t_exit && t_surface <= limit) {
         beyond = medium == MATERIAL_WATER ? MATERIAL_AIR : MATERIAL_WATER;
-        return RayHit(HIT_SURFACE, t_surface > 0.0 ? t_surface : 0.0, cell, cell, 1, beyond, value, steps);
+        return RayHit(HIT_SURFACE, t_surface > 0.0 ? t_surface : 0.0, cell, cell, 1, beyond, value, steps, steps + 1);
     }
-    return RayHit(HIT_NONE, t_max_vox, start.cell, start.cell, 0, MATERIAL_AIR, 0u, steps);
+    return RayHit(HIT_NONE, t_max_vox, start.cell, start.cell, 0, MATERIAL_AIR, 0u, steps, steps + 1);
 }
 #endif
 

@@ -43,7 +43,7 @@ RayKernel::RayKernel(const RaySet& set, bool skip)
       rows_(rows_for(set.rays.size())),
       rays_({.label = "bench rays", .format = GL_RGBA32F, .size = {width_px, 3 * rows_, 0}}),
       frame_("bench frame", sizeof(FrameBlock)),
-      result_({.label = "bench distances", .format = GL_RG32F, .size = {width_px, rows_, 0}}),
+      result_({.label = "bench distances", .format = GL_RGBA32F, .size = {width_px, rows_, 0}}),
       target_("bench distances", {&result_}) {
     const std::size_t pixels = std::size_t{1} * width_px * rows_;
     std::vector<glm::vec4> parts(3 * pixels, glm::vec4(0));
@@ -75,13 +75,14 @@ double RayKernel::run(const Simulation& simulation) {
 
 RayKernel::Result RayKernel::read() const {
     const glm::ivec3 size = result_.size();
-    std::vector<glm::vec2> pixels(std::size_t{1} * size.x * size.y);
-    result_.download(std::span(pixels), GL_RG, GL_FLOAT);
+    std::vector<glm::vec4> pixels(std::size_t{1} * size.x * size.y);
+    result_.download(std::span(pixels), GL_RGBA, GL_FLOAT);
     Result result;
     for (std::size_t ray = 0; ray < count_; ++ray) {
-        const glm::vec2 found = pixels[place_of(ray)];
+        const glm::vec4 found = pixels[place_of(ray)];
         result.distance_vox.push_back(found.x);
         result.mean_steps += static_cast<double>(found.y) / static_cast<double>(count_);
+        result.mean_cells += static_cast<double>(found.z) / static_cast<double>(count_);
     }
     return result;
 }

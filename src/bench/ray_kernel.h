@@ -22,6 +22,7 @@ class RayKernel {
     struct Result {
         std::vector<float> distance_vox;  // of each ray; -1: nothing met
         double mean_steps = 0;
+        double mean_cells = 0;  // read
     };
     Result read() const;  // of the last run
 
