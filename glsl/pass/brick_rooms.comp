@@ -17,7 +17,7 @@ layout(rg16ui, binding = 0) uniform uimage3D target;  // the same, from bit 4 (a
 layout(rg32ui, binding = 0) uniform uimage3D target;  // the words
 #endif
 
-layout(std430, binding = 2) buffer Lines { uint marked[]; };
+layout(std430, binding = STORAGE_ROOM_LINES) buffer Lines { uint marked[]; };
 
 uniform ivec3 size_bricks;
 uniform uint version;

@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
 
 #include "app/albedo_textures.h"
 #include "app/camera.h"
+#include "app/error_estimate.h"
 #include "app/frame_block.h"
 #include "app/render_targets.h"
 #include "app/stopwatch.h"
+#include "app/trace_needs.h"
 #include "app/views.h"
 #include "app/world_contents.h"
 #include "core/error.h"
@@ -22,7 +23,7 @@
 #include "passes/filter_pass.h"
 #include "passes/pick_pass.h"
 #include "passes/temporal_pass.h"
-#include "passes/trace_pass.h"
+#include "passes/trace_programs.h"
 #include "shared/bindings.h"
 #include "shared/trace.h"
 
@@ -42,7 +43,11 @@ struct Renderer::Parts {
 
     // A program is built when first used: a run pays for the passes it needs.
     double compile_ms = 0;
-    std::map<TraceFeatures, TracePass> trace;
+    TracePrograms own_trace;  // of a renderer that is given none
+    TracePrograms& trace;
+    TraceFeatures always{};     // compiled in whatever the scene needs
+    bool exact_program = true;  // TracePrograms::Choice::exact of the last frame
+    bool effect_is_late = false;
     std::optional<EmittersPass> emitters;
     std::optional<TemporalPass> temporal[2][2];  // [blend][moments]
     std::optional<FilterPass> filter[2];         // [gaussian]
@@ -52,6 +57,7 @@ struct Renderer::Parts {
 
     std::optional<RenderTargets> targets;
     Views views;
+    ErrorEstimate error;
     FrameBlock block;   // of the last frame
     Settings settings;  // of the last frame
     int current = 0;    // which of the two sets the last frame wrote
@@ -63,12 +69,13 @@ struct Renderer::Parts {
     std::uint64_t frames_kept = 0;
     const gl::Texture* shown = nullptr;  // radiance of the last frame
 
-    Parts(const Scene& scene, gl::Timers& timers_)
+    Parts(const Scene& scene, gl::Timers& timers_, TracePrograms* programs)
         : timers(timers_),
           contents(scene),
           materials(scene.materials),
           metres_per_voxel(scene.metres_per_voxel),
-          seed(scene.seed) {}
+          seed(scene.seed),
+          trace(programs != nullptr ? *programs : own_trace) {}
 
     template <typename Pass, typename... Arguments>
     Pass& built(std::optional<Pass>& pass, Arguments... arguments) {
@@ -79,15 +86,8 @@ struct Renderer::Parts {
         }
         return *pass;
     }
-    TracePass& trace_pass(const TraceFeatures& features) {
-        const auto found = trace.find(features);
-        if (found != trace.end()) return found->second;
-        const Stopwatch watch;
-        TracePass& pass = trace.try_emplace(features, features).first->second;
-        compile_ms += watch.ms();
-        return pass;
-    }
-    TraceFeatures features(const Simulation& simulation) const;
+    TraceShapes shapes(const Simulation& simulation) const;
+    const TracePass& choose_program(const Simulation& simulation);
     void prepare_targets(const Settings& now, glm::ivec2 size_px);
     void upload_frame(const Simulation& simulation, const Settings& now);
     SurfaceBuffers surfaces(int set, const gl::Texture& radiance) const {
@@ -100,27 +100,26 @@ struct Renderer::Parts {
     void show(const gl::Framebuffer& target, bool raw);
 };
 
-TraceFeatures Renderer::Parts::features(const Simulation& simulation) const {
-    TraceFeatures features;
-    for (std::size_t id = MATERIAL_AIR + 1; id < materials.size(); ++id) {
-        if (!contents.may_hold(simulation, id)) continue;
-        const Material& m = materials[id];
-        const bool clear = id == MATERIAL_WATER || id == MATERIAL_GLASS;
-        if (clear) features.rough |= m.roughness * m.roughness >= ALPHA_SMOOTH;
-        if (!clear) features.coated |= m.ior != 1 || m.metallic > 0;
-        if (!clear) features.metal |= m.metallic > 0;
-        features.clear |= clear;
-        const glm::vec3 shines = id == MATERIAL_WATER ? glm::vec3(0) : m.emission;  // as in lib/emitter_tree
-        features.emitters |= std::max({shines.x, shines.y, shines.z}) > 0;
-    }
-    features.skip = settings.traversal == Traversal::Distance;
-    features.sun = settings.light_sampling != LightSampling::None && block.sun_radiance.w > 0;
-    features.sky = settings.light_sampling == LightSampling::All;
-    features.emitters &= settings.light_sampling != LightSampling::None;
-    features.clear_sky = settings.sky_model == SkyModel::Preetham;
-    features.smooth_water = settings.smooth_water && contents.may_hold(simulation, MATERIAL_WATER);
-    features.count = counts_paths(settings.view);
-    return features;
+TraceShapes Renderer::Parts::shapes(const Simulation& simulation) const {
+    const FrameTargets& frame = targets->frames[0];
+    return {.cells = simulation.cells().small_like(),
+            .brick_rooms = simulation.brick_rooms().small_like(),
+            .albedo_table = albedo.dielectric.small_like(),
+            .metal_albedo_table = albedo.metal.small_like(),
+            .glass_albedo_table = albedo.glass.small_like(),
+            .targets = {targets->radiance.small_like(), frame.position.small_like(),
+                        frame.normal.small_like(), frame.material.small_like()}};
+}
+
+const TracePass& Renderer::Parts::choose_program(const Simulation& simulation) {
+    const auto held = [&](std::size_t id) { return contents.may_hold(simulation, id); };
+    const TraceFeatures needed = with(always, needed_features(settings, materials, block, held));
+    const TraceFeatures general = with(needed, general_features(settings, materials));
+    const TracePrograms::Choice choice = trace.choose(needed, general, shapes(simulation));
+    // A setting takes effect with its program: history begins anew after this frame.
+    effect_is_late = choice.exact && !exact_program;
+    exact_program = choice.exact;
+    return choice.pass;
 }
 
 void Renderer::Parts::prepare_targets(const Settings& now, glm::ivec2 size_px) {
@@ -177,7 +176,7 @@ void Renderer::Parts::upload_frame(const Simulation& simulation, const Settings&
 void Renderer::Parts::update_emitters(const Simulation& simulation) {
     built(emitters, bricks_of(simulation.size_vox()))
         .record({.cells = simulation.cells(),
-                 .brick_changed = simulation.brick_changed(),
+                 .changes = simulation.changes(),
                  .version = static_cast<std::uint32_t>(simulation.version())},
                 timers);
 }
@@ -198,7 +197,7 @@ const gl::Texture& Renderer::Parts::reproject_and_filter(const Simulation& simul
     const gl::Texture* radiance = &targets->radiance;
     if (settings.history != History::None) {
         const bool blend = settings.history == History::Blend;
-        const bool moments = settings.view == ViewKind::Variance;
+        const bool moments = views.keeps_moments();
         built(temporal[blend][moments], blend, moments)
             .record({.current = surfaces(current, targets->radiance),
                      .previous = surfaces(1 - current, targets->frames[1 - current].history),
@@ -232,7 +231,8 @@ void Renderer::Parts::show(const gl::Framebuffer& target, bool raw) {
         views.show(*targets, current, raw, target, timers);
 }
 
-Renderer::Renderer(const Scene& scene, gl::Timers& timers) : parts_(std::make_unique<Parts>(scene, timers)) {}
+Renderer::Renderer(const Scene& scene, gl::Timers& timers, TracePrograms* programs)
+    : parts_(std::make_unique<Parts>(scene, timers, programs)) {}
 
 Renderer::~Renderer() = default;
 
@@ -243,22 +243,22 @@ const gl::Texture& Renderer::render(const Simulation& simulation, const Settings
     p.upload_frame(simulation, settings);
     p.current = 1 - p.current;
 
-    const TraceFeatures features = p.features(simulation);
-    if (features.emitters) p.update_emitters(simulation);
+    const TracePass& trace = p.choose_program(simulation);
+    if (trace.features().emitters) p.update_emitters(simulation);
     p.views.prepare(settings, *p.targets, p.has_history);
-    p.trace_pass(features).record({.cells = simulation.cells(),
-                                   .brick_rooms = simulation.brick_rooms(),
-                                   .albedo_table = p.albedo.dielectric,
-                                   .metal_albedo_table = p.albedo.metal,
-                                   .glass_albedo_table = p.albedo.glass,
-                                   .emitters = features.emitters ? &*p.emitters : nullptr,
-                                   .rejected = p.rejected},
-                                  {.target = p.views.trace_target(*p.targets, p.current)}, p.timers);
+    trace.record({.cells = simulation.cells(),
+                  .brick_rooms = simulation.brick_rooms(),
+                  .albedo_table = p.albedo.dielectric,
+                  .metal_albedo_table = p.albedo.metal,
+                  .glass_albedo_table = p.albedo.glass,
+                  .emitters = trace.features().emitters ? &*p.emitters : nullptr,
+                  .rejected = p.rejected},
+                 {.target = p.views.trace_target(*p.targets, p.current)}, p.timers);
     p.shown =
         settings.history == History::Exact ? &p.accumulate_exact() : &p.reproject_and_filter(simulation);
     p.show(p.targets->picture_target, false);
 
-    p.has_history = true;
+    p.has_history = !p.effect_is_late;
     p.world_version = simulation.version();
     ++p.frame_index;
     p.frames_kept = std::min<std::uint64_t>(p.frames_kept + 1, FRAMES_KEPT_MAX);
@@ -268,6 +268,10 @@ const gl::Texture& Renderer::render(const Simulation& simulation, const Settings
 void Renderer::world_replaced() {
     parts_->emitters.reset();
     reset_history();
+}
+
+void Renderer::compile_in(const TraceFeatures& always) {
+    parts_->always = always;
 }
 
 void Renderer::reset_history() {
@@ -334,6 +338,35 @@ ImageRgb32f Renderer::read_radiance() const {
     return image;
 }
 
+void Renderer::keep_variance(bool on) {
+    parts_->views.keep_variance(on);
+    if (!on) parts_->error.forget();
+}
+
+void Renderer::measure_error() {
+    Parts& p = *parts_;
+    CHECK(p.targets && p.shown != nullptr);
+    const bool exact = p.settings.history == History::Exact;
+    if (!exact && !p.views.keeps_moments()) {
+        p.error.forget();
+        return;
+    }
+    p.frame_block.upload(std::span(&p.block, 1));
+    p.frame_block.bind_uniform(BINDING_FRAME);
+    p.material_block.bind_uniform(BINDING_MATERIALS);
+    p.error.measure(
+        p.targets->shown_px,
+        [&](const gl::Framebuffer& to) { p.views.show_variance(*p.targets, p.current, to, p.timers); },
+        [&](const gl::Framebuffer& to) {
+            p.built(p.display[1], true).record({.radiance = *p.shown}, {.picture = to}, p.timers);
+        },
+        p.timers);
+}
+
+std::optional<double> Renderer::estimated_error(bool wait) const {
+    return parts_->error.last(wait);
+}
+
 std::uint64_t Renderer::samples() const {
     const Settings& s = parts_->settings;
     std::uint64_t frames = 1;
@@ -349,7 +382,7 @@ std::uint64_t Renderer::rejected_samples() const {
 }
 
 double Renderer::compile_ms() const {
-    return parts_->compile_ms + parts_->views.compile_ms();
+    return parts_->compile_ms + parts_->views.compile_ms() + parts_->trace.waited_ms();
 }
 
 std::vector<std::string> Renderer::poll_reload() {
@@ -362,8 +395,9 @@ std::vector<std::string> Renderer::poll_reload() {
     const auto poll = [&](auto& pass) {
         if (pass) poll_program(pass->program());
     };
-    for (auto& [features, pass] : parts_->trace) poll_program(pass.program());
+    parts_->trace.poll_reload(messages);
     parts_->views.for_each_program(poll_program);
+    parts_->error.for_each_program(poll_program);
     for (int i = 0; i < 2; ++i) {
         for (auto& pass : parts_->temporal[i]) poll(pass);
         poll(parts_->filter[i]);

@@ -8,8 +8,6 @@ namespace tarn {
 
 namespace {
 
-constexpr glm::ivec3 local_size{8, 8, 1};
-
 gl::Program rooms_program(const char* axis) {
     return gl::Program(
         {.label = "brick rooms", .compute = "pass/brick_rooms.comp", .defines = {{"AXIS", axis}}});
@@ -38,34 +36,29 @@ BricksPass::BricksPass(glm::ivec3 size_bricks)
       occupancy_({.label = "brick occupancy", .format = GL_RG8UI, .size = size_bricks}),
       rooms_up_({.label = "brick rooms along y", .format = GL_RG8UI, .size = size_bricks}),
       rooms_side_({.label = "brick rooms along y and x", .format = GL_RG16UI, .size = size_bricks}),
-      last_change_("last change", sizeof(std::uint32_t)),
       groups_("brick room groups", 3 * sizeof(glm::uvec3)),
       lines_("marked lines of bricks", lines_of(size_bricks) * sizeof(std::uint32_t)) {
     for (const gl::Texture* texture : {&occupancy_, &rooms_up_, &rooms_side_}) make_unknown(*texture);
     lines_.clear();
 }
 
-void BricksPass::record(const Inputs& in, const Outputs& out, gl::Timers& timers) const {
+void BricksPass::record(const Inputs& in, const Outputs& out, gl::Timers& timers) {
     const glm::ivec3 size_bricks = occupancy_.size();
-    {
-        const auto scope = timers.scope("bricks");
-        groups_.clear();
-        groups_.bind_storage(0);
-        last_change_.bind_storage(1);
-        lines_.bind_storage(2);
-        in.cells.bind(BINDING_CELLS);
-        in.brick_changed.bind_image(0, GL_READ_ONLY);
-        occupancy_.bind_image(1, GL_READ_WRITE);
-        out.brick_rooms.bind_image(2, GL_WRITE_ONLY);
-        occupancy_program_.set("size_bricks", size_bricks);
-        occupancy_program_.set("line_groups", glm::uvec3((size_bricks + 7) / 8));
-        occupancy_program_.set("version", in.version);
-        occupancy_program_.dispatch_for(size_bricks, local_size);
-        glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT |
-                        GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
-                        GL_BUFFER_UPDATE_BARRIER_BIT);
-    }
-    const auto scope = timers.scope("rooms");
+    const auto scope = timers.scope("bricks");
+    reader_.read(in.activity.changes(), in.version);
+    groups_.clear();
+    in.activity.matter().bind_storage(STORAGE_MATTER);
+    groups_.bind_storage(STORAGE_ROOM_GROUPS);
+    lines_.bind_storage(STORAGE_ROOM_LINES);
+    in.cells.bind(BINDING_CELLS);
+    occupancy_.bind_image(0, GL_READ_WRITE);
+    out.brick_rooms.bind_image(1, GL_WRITE_ONLY);
+    occupancy_program_.set("size_bricks", size_bricks);
+    occupancy_program_.set("line_groups", glm::uvec3((size_bricks + 7) / 8));
+    occupancy_program_.set("version", in.version);
+    reader_.run(occupancy_program_, in.activity.changes());
+    glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
+                    GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, groups_.name());
     struct Step {
         int axis;
@@ -86,13 +79,8 @@ void BricksPass::record(const Inputs& in, const Outputs& out, gl::Timers& timers
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
 }
 
-std::uint32_t BricksPass::last_change() const {
-    std::uint32_t version = 0;
-    last_change_.download(std::span(&version, 1));
-    return version;
-}
-
 void BricksPass::poll_reload(std::vector<std::string>& messages) {
+    if (auto message = reader_.poll_reload()) messages.push_back(*message);
     for (gl::Program* program :
          {&occupancy_program_, &rooms_program_[0], &rooms_program_[1], &rooms_program_[2]})
         if (auto message = program->poll_reload()) messages.push_back(*message);

@@ -10,33 +10,36 @@
 #include "gl/program.h"
 #include "gl/texture.h"
 #include "gl/timers.h"
+#include "passes/activity.h"
+#include "passes/changes.h"
 
 namespace tarn {
 
 class BricksPass {
   public:
     struct Inputs {
-        const gl::Texture& cells;          // R8UI
-        const gl::Texture& brick_changed;  // R32UI
-        std::uint32_t version;             // bricks with this stamp are looked at anew
+        const gl::Texture& cells;  // R8UI
+        const ActivityPass& activity;
+        std::uint32_t version;  // of the world
     };
     struct Outputs {
         gl::Texture& brick_rooms;  // RG32UI, as in app/simulation.h; holds what the last call left
+        // And which bricks hold what moves, in Inputs::activity.
     };
 
     explicit BricksPass(glm::ivec3 size_bricks);
-    void record(const Inputs& in, const Outputs& out, gl::Timers& timers) const;
+    void record(const Inputs& in, const Outputs& out, gl::Timers& timers);
     // The `version` of the last call that found a changed brick. Waits for the GPU.
-    std::uint32_t last_change() const;
+    std::uint32_t last_change() const { return reader_.last_change(); }
     void poll_reload(std::vector<std::string>& messages);
 
   private:
+    ChangeReader reader_;
     gl::Program occupancy_program_;
     gl::Program rooms_program_[3];                   // by axis; run in the order y, x, z
     gl::Texture occupancy_, rooms_up_, rooms_side_;  // RG8UI, RG8UI, RG16UI
-    mutable gl::Buffer last_change_;
-    mutable gl::Buffer groups_;  // of the rooms programs, written by the occupancy program
-    mutable gl::Buffer lines_;   // of bricks, marked with the version at which they are to be looked at
+    gl::Buffer groups_;  // of the rooms programs, written by the occupancy program
+    gl::Buffer lines_;   // of bricks, marked with the version at which they are to be looked at
 };
 
 // ceil(size / BRICK_SIDE)

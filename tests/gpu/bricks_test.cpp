@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <random>
 
 #include "app/simulation.h"
 #include "brick_rooms.h"
@@ -171,6 +173,46 @@ TEST_F(BricksTest, a_stroke_across_the_world_is_undone) {
     EXPECT_EQ(simulation.edit_totals().placed, simulation.edit_totals().removed);
     simulation.write(*history.redo());
     EXPECT_TRUE(same_cells(simulation.read_cells(), edited));
+}
+
+// Worlds that reach farther than the largest distance, so that only a part is computed anew: all around open
+// sky, in deep water and at the borders.
+TEST_F(BricksTest, distances_follow_random_edits_and_what_moves) {
+    std::mt19937 random(5);
+    const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+    for (const glm::ivec3 size : {glm::ivec3(300, 290, 310), glm::ivec3(700, 21, 16), glm::ivec3(9, 700, 24),
+                                  glm::ivec3(16, 33, 700)}) {
+        SCOPED_TRACE(fmt::format("{}x{}x{}", size.x, size.y, size.z));
+        Scene scene;
+        scene.cells = Cells(size);
+        auto& bytes = scene.cells.bytes();
+        for (int z = 0; z < size.z; ++z)
+            for (int y = 0; 2 * y < size.y; ++y)
+                std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(scene.cells.index({0, y, z})), size.x,
+                            static_cast<std::uint8_t>(MATERIAL_WATER_FULL));
+        gl::Timers timers;
+        Simulation simulation(scene, timers);
+        simulation.put_to_sleep();
+        EditHistory history;
+        constexpr std::array<std::uint8_t, 4> materials{MATERIAL_STONE, MATERIAL_AIR, MATERIAL_WATER,
+                                                        MATERIAL_SAND};
+        for (int round = 0; round < 12; ++round) {
+            history.begin_stroke();
+            // The first a stone in the sky, alone; then, two at a time, one at each end of what came before.
+            for (int i = 0; i < (round == 0 ? 1 : 2); ++i)
+                simulation.apply({.tick = simulation.tick(),
+                                  .center_vox = {below(size.x), round == 0 ? size.y * 3 / 4 : below(size.y),
+                                                 below(size.z)},
+                                  .radius_vox = 1 + below(9),
+                                  .material = materials[static_cast<std::size_t>(round % 4)],
+                                  .overwrite = true},
+                                 history);
+            if (round % 3 == 2) simulation.write(*history.undo());
+            if (round % 4 == 3) simulation.step(1 + below(3), Settings{});
+            expect_right_rooms(simulation, simulation.read_cells());
+            if (HasFatalFailure()) return;
+        }
+    }
 }
 
 TEST_F(BricksTest, single_cells_are_read_back) {
