@@ -24,7 +24,10 @@ void main() {
     vec2 ndc = (2.0 * gl_FragCoord.xy - size) / size;
     uint count = frame.counters.z;
     for (uint i = 0u; i < count; ++i) {
-        rng_seed(pixel, frame.counters.x, i, frame.counters.y);
+        if (option(OPTION_LOW_DISCREPANCY))
+            rng_seed_sequence(pixel, frame.counters.x * count + i, frame.counters.y);
+        else
+            rng_seed(pixel, frame.counters.x, i, frame.counters.y);
         vec2 at = ndc;
         if (option(OPTION_JITTER)) at += (2.0 * rng_vec2() - 1.0) / size;
         FirstSurface surface;

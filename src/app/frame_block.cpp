@@ -54,6 +54,7 @@ FrameBlock make_frame_block(const FrameInputs& in) {
     if (s.caustics) options |= OPTION_CAUSTICS;
     if (s.diffuse_sampling == DiffuseSampling::Uniform) options |= OPTION_UNIFORM_DIFFUSE;
     if (s.jitter) options |= OPTION_JITTER;
+    if (s.low_discrepancy) options |= OPTION_LOW_DISCREPANCY;
     if (s.straight_sunlight) options |= OPTION_STRAIGHT_SUNLIGHT;
     if (s.sky_model == SkyModel::Preetham) {
         set_clear_sky(block, s);

@@ -103,7 +103,7 @@ struct Renderer::Parts {
 TraceShapes Renderer::Parts::shapes(const Simulation& simulation) const {
     const FrameTargets& frame = targets->frames[0];
     return {.cells = simulation.cells().small_like(),
-            .brick_distance = simulation.brick_distance().small_like(),
+            .brick_rooms = simulation.brick_rooms().small_like(),
             .albedo_table = albedo.dielectric.small_like(),
             .metal_albedo_table = albedo.metal.small_like(),
             .glass_albedo_table = albedo.glass.small_like(),
@@ -247,7 +247,7 @@ const gl::Texture& Renderer::render(const Simulation& simulation, const Settings
     if (trace.features().emitters) p.update_emitters(simulation);
     p.views.prepare(settings, *p.targets, p.has_history);
     trace.record({.cells = simulation.cells(),
-                  .brick_distance = simulation.brick_distance(),
+                  .brick_rooms = simulation.brick_rooms(),
                   .albedo_table = p.albedo.dielectric,
                   .metal_albedo_table = p.albedo.metal,
                   .glass_albedo_table = p.albedo.glass,

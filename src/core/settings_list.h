@@ -40,6 +40,9 @@
         "or all (the sky too).")                                                                             \
     CHOICE(DiffuseSampling, diffuse_sampling, Cosine, LIGHT, IMAGE,                                          \
            "Diffuse directions: by their cosine, or uniform over the hemisphere (more noise).")              \
+    BOOL(low_discrepancy, true, LIGHT, IMAGE,                                                                \
+         "Spread the random numbers of a pixel's frames evenly: less noise once frames are averaged; off: "  \
+         "independent numbers.")                                                                             \
     BOOL(sun_through_water, true, LIGHT, IMAGE,                                                              \
          "Connect points under smooth water to the sun through the surface, in closed form.")                \
     BOOL(                                                                                                    \

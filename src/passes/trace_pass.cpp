@@ -38,8 +38,8 @@ gl::ProgramDesc describe(const TraceFeatures& features) {
 TracePass::TracePass(const TraceFeatures& features) : features_(features), program_(describe(features)) {}
 
 void TracePass::draw(const Inputs& inputs, const gl::Framebuffer& target) const {
-    inputs.cells.bind(BINDING_CELLS);
-    if (features_.skip) inputs.brick_distance.bind(BINDING_BRICK_DISTANCE);
+    inputs.cells.bind_image(IMAGE_CELLS, GL_READ_ONLY);
+    if (features_.skip) inputs.brick_rooms.bind_image(IMAGE_BRICK_ROOMS, GL_READ_ONLY);
     if (features_.coated) {
         inputs.albedo_table.bind(BINDING_ALBEDO_TABLE);
         inputs.metal_albedo_table.bind(BINDING_METAL_ALBEDO_TABLE);
@@ -71,12 +71,12 @@ void TracePass::rehearse(const TraceShapes& shapes) const {
                                              gl::Texture(shapes.targets[2]), gl::Texture(shapes.targets[3])};
     const gl::Framebuffer target("rehearsal", {&targets[0], &targets[1], &targets[2], &targets[3]});
     const gl::Texture cells(shapes.cells);
-    const gl::Texture brick_distance(shapes.brick_distance);
+    const gl::Texture brick_rooms(shapes.brick_rooms);
     const gl::Texture albedo_table(shapes.albedo_table);
     const gl::Texture metal_albedo_table(shapes.metal_albedo_table);
     const gl::Texture glass_albedo_table(shapes.glass_albedo_table);
     draw({.cells = cells,
-          .brick_distance = brick_distance,
+          .brick_rooms = brick_rooms,
           .albedo_table = albedo_table,
           .metal_albedo_table = metal_albedo_table,
           .glass_albedo_table = glass_albedo_table,

@@ -28,7 +28,7 @@ struct TraceFeatures {
 
 // What a driver's code for the pass may depend on beside its features.
 struct TraceShapes {
-    gl::TextureDesc cells, brick_distance, albedo_table, metal_albedo_table, glass_albedo_table;
+    gl::TextureDesc cells, brick_rooms, albedo_table, metal_albedo_table, glass_albedo_table;
     std::array<gl::TextureDesc, 4> targets;  // radiance, position, normal, material
 };
 
@@ -36,7 +36,7 @@ class TracePass {
   public:
     struct Inputs {
         const gl::Texture& cells;
-        const gl::Texture& brick_distance;
+        const gl::Texture& brick_rooms;
         const gl::Texture& albedo_table;
         const gl::Texture& metal_albedo_table;
         const gl::Texture& glass_albedo_table;
