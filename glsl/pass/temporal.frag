@@ -3,20 +3,16 @@
 #include "lib/camera.glsl"
 #include "lib/materials.glsl"
 #include "lib/math.glsl"
-#include "shared/trace.h"
+#include "lib/surface.glsl"
 
 layout(binding = BINDING_BRICK_CHANGED) uniform usampler3D brick_changed;
 layout(binding = 4) uniform sampler2D radiance;
-layout(binding = 5) uniform sampler2D position;
-layout(binding = 6) uniform sampler2D normal;
-layout(binding = 7) uniform usampler2D material;
-layout(binding = 8) uniform sampler2D previous_radiance;  // rgb; a: frames kept
-layout(binding = 9) uniform sampler2D previous_position;
-layout(binding = 10) uniform sampler2D previous_normal;
-layout(binding = 11) uniform usampler2D previous_material;
+layout(binding = 5) uniform sampler2D surface;
+layout(binding = 6) uniform sampler2D previous_radiance;  // rgb; a: frames kept
+layout(binding = 7) uniform sampler2D previous_surface;
 
 #ifdef HISTORY_MOMENTS
-layout(binding = 12) uniform sampler2D previous_moments;
+layout(binding = 8) uniform sampler2D previous_moments;
 uniform bool has_moments;  // the previous frame wrote some
 #endif
 
@@ -35,10 +31,6 @@ layout(std430, binding = 0) buffer RejectedBlock { uint rejected_samples; };
 // water takes many bounces and is noisier by far than the lag that more frames bring.
 const float FRAMES_KEPT_NEAR_CHANGE = 3.0;
 const float FRAMES_KEPT_IN_MOVING_WATER = 10.0;
-// Distance from the plane of the first hit (vox) within which two hits are on one surface, plus its growth with
-// distance from the eye (float32 rounding of positions).
-const float PLANE_TOLERANCE_VOX = 0.01;
-const float PLANE_TOLERANCE_PER_VOX = 1e-5;
 
 bool changed_since(vec3 at_vox) {
     ivec3 cell = clamp(ivec3(floor(at_vox)), ivec3(0), frame.world_size_vox.xyz - 1);
@@ -50,9 +42,9 @@ bool changed_since(vec3 at_vox) {
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     vec3 value = texelFetch(radiance, at, 0).rgb;
-    vec4 here = texelFetch(position, at, 0);
-    vec3 n = texelFetch(normal, at, 0).xyz;
-    uint id = texelFetch(material, at, 0).r;
+    vec4 here = texelFetch(surface, at, 0);
+    vec3 n = surface_normal(here.w);
+    uint id = surface_material(here.w);
 
     vec4 history = vec4(0.0);
     float weight_sum = 0.0;
@@ -68,16 +60,13 @@ void main() {
         if (all(lessThan(abs(texel - nearest), vec2(0.01)))) texel = nearest;
         ivec2 base = ivec2(floor(texel));
         vec2 f = texel - vec2(base);
-        float tolerance = PLANE_TOLERANCE_VOX + PLANE_TOLERANCE_PER_VOX * here.w;
+        float tolerance = plane_tolerance(here, frame.camera_position_vox.xyz);
         for (int k = 0; k < 4; ++k) {
             ivec2 tap = base + ivec2(k & 1, k >> 1);
             vec2 w2 = mix(1.0 - f, f, vec2(k & 1, k >> 1));
             float w = w2.x * w2.y;
             if (w <= 0.0 || any(lessThan(tap, ivec2(0))) || any(greaterThanEqual(tap, ivec2(size)))) continue;
-            if (texelFetch(previous_material, tap, 0).r != id) continue;
-            if (any(greaterThan(abs(texelFetch(previous_normal, tap, 0).xyz - n), vec3(0.01)))) continue;
-            vec4 there = texelFetch(previous_position, tap, 0);
-            if (id != SURFACE_SKY && abs(dot(there.xyz - here.xyz, n)) > tolerance) continue;
+            if (!lies_on(here, texelFetch(previous_surface, tap, 0), n, tolerance)) continue;
             vec4 kept = texelFetch(previous_radiance, tap, 0);
             if (!is_finite(kept.rgb) || !is_finite(kept.a)) {
                 atomicAdd(rejected_samples, 1u);

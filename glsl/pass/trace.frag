@@ -1,13 +1,12 @@
 // Paths of one frame: mean radiance per pixel and the surface seen.
 #include "lib/path.glsl"
 #include "lib/camera.glsl"
+#include "lib/surface.glsl"
 
 layout(location = 0) out vec4 out_radiance;  // rgb; a: 1
-layout(location = 1) out vec4 out_position;  // xyz: first hit (vox); w: distance from the eye
-layout(location = 2) out vec4 out_normal;    // xyz; 0 for sky
-layout(location = 3) out uint out_material;  // id; 255 for sky
+layout(location = 1) out vec4 out_surface;   // lib/surface.glsl
 #ifdef TRACE_COUNT
-layout(location = 4) out vec2 out_counts;    // bounces and steps, means over the paths
+layout(location = 2) out vec2 out_counts;    // bounces and steps, means over the paths
 #endif
 
 layout(std430, binding = 0) buffer RejectedBlock { uint rejected_samples; };
@@ -40,7 +39,5 @@ void main() {
             atomicAdd(rejected_samples, 1u);
     }
     out_radiance = vec4(sum, 1.0);
-    out_position = vec4(first.position_vox, first.distance_vox);
-    out_normal = vec4(first.normal, 0.0);
-    out_material = first.material;
+    out_surface = vec4(first.position_vox, surface_code(first.normal, first.material));
 }

@@ -9,13 +9,12 @@ namespace tarn {
 
 // What one frame sees; two sets, current and previous.
 struct FrameTargets {
-    gl::Texture position, normal, material, history;
+    gl::Texture surface;  // glsl/lib/surface.glsl
+    gl::Texture history;
 
     FrameTargets() = default;
     explicit FrameTargets(glm::ivec2 size)
-        : position({.label = "position", .format = GL_RGBA32F, .size = {size, 0}}),
-          normal({.label = "normal", .format = GL_RGBA16F, .size = {size, 0}}),
-          material({.label = "material", .format = GL_R8UI, .size = {size, 0}}),
+        : surface({.label = "surface", .format = GL_RGBA32F, .size = {size, 0}}),
           history({.label = "history", .format = GL_RGBA32F, .size = {size, 0}, .linear = true}) {}
 };
 
@@ -50,8 +49,7 @@ struct RenderTargets {
                 gl::Texture({.label = "filtered", .format = GL_RGBA32F, .size = {traced, 0}, .linear = true});
         for (int i = 0; i < 2; ++i) {
             frames[i] = FrameTargets(traced);
-            trace_target[i] = gl::Framebuffer(
-                "trace", {&radiance, &frames[i].position, &frames[i].normal, &frames[i].material});
+            trace_target[i] = gl::Framebuffer("trace", {&radiance, &frames[i].surface});
             history_target[i] = gl::Framebuffer("history", {&frames[i].history});
             filter_target[i] = gl::Framebuffer("filter", {&filtered[i]});
             if (exact) sums[i] = Sums(traced);

@@ -92,7 +92,7 @@ struct Renderer::Parts {
     void upload_frame(const Simulation& simulation, const Settings& now);
     SurfaceBuffers surfaces(int set, const gl::Texture& radiance) const {
         const FrameTargets& frame = targets->frames[set];
-        return {radiance, frame.position, frame.normal, frame.material};
+        return {radiance, frame.surface};
     }
     void update_emitters(const Simulation& simulation);
     const gl::Texture& accumulate_exact();

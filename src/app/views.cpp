@@ -9,8 +9,7 @@ Views::Targets::Targets(const RenderTargets& targets)
     for (int i = 0; i < 2; ++i) {
         const FrameTargets& frame = targets.frames[i];
         moments[i] = gl::Texture({.label = "moments", .format = GL_RGBA32F, .size = {targets.traced_px, 0}});
-        trace[i] = gl::Framebuffer("trace with counts", {&targets.radiance, &frame.position, &frame.normal,
-                                                         &frame.material, &counts});
+        trace[i] = gl::Framebuffer("trace with counts", {&targets.radiance, &frame.surface, &counts});
         history[i] = gl::Framebuffer("history with moments", {&frame.history, &moments[i]});
     }
 }
@@ -64,9 +63,7 @@ void Views::show(const RenderTargets& targets, int current, bool raw, const gl::
         history = &frame.history;
         if (targets_) moments = &targets_->moments[current];
     }
-    pass(raw).record({.position = frame.position,
-                      .normal = frame.normal,
-                      .material = frame.material,
+    pass(raw).record({.surface = frame.surface,
                       .counts = targets_ ? &targets_->counts : nullptr,
                       .history = history,
                       .moments = moments,

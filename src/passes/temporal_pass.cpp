@@ -26,16 +26,12 @@ void TemporalPass::record(const Inputs& inputs, const Outputs& outputs, gl::Time
     const auto scope = timers.scope("temporal");
     inputs.brick_changed.bind(BINDING_BRICK_CHANGED);
     inputs.current.radiance.bind(BINDING_FIRST_INPUT);
-    inputs.current.position.bind(BINDING_FIRST_INPUT + 1);
-    inputs.current.normal.bind(BINDING_FIRST_INPUT + 2);
-    inputs.current.material.bind(BINDING_FIRST_INPUT + 3);
-    inputs.previous.radiance.bind(BINDING_FIRST_INPUT + 4);
-    inputs.previous.position.bind(BINDING_FIRST_INPUT + 5);
-    inputs.previous.normal.bind(BINDING_FIRST_INPUT + 6);
-    inputs.previous.material.bind(BINDING_FIRST_INPUT + 7);
+    inputs.current.surface.bind(BINDING_FIRST_INPUT + 1);
+    inputs.previous.radiance.bind(BINDING_FIRST_INPUT + 2);
+    inputs.previous.surface.bind(BINDING_FIRST_INPUT + 3);
     inputs.rejected.bind_storage(0);
     if (moments_) {
-        if (inputs.previous_moments != nullptr) inputs.previous_moments->bind(BINDING_FIRST_INPUT + 8);
+        if (inputs.previous_moments != nullptr) inputs.previous_moments->bind(BINDING_FIRST_INPUT + 4);
         program_.set("has_moments", inputs.previous_moments != nullptr ? 1 : 0);
     }
     program_.set("previous_version", inputs.previous_version);

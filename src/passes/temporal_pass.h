@@ -10,12 +10,10 @@
 
 namespace tarn {
 
-// The four buffers of a frame.
+// What a frame holds of each pixel: light, and what shows it (glsl/lib/surface.glsl).
 struct SurfaceBuffers {
     const gl::Texture& radiance;
-    const gl::Texture& position;
-    const gl::Texture& normal;
-    const gl::Texture& material;
+    const gl::Texture& surface;
 };
 
 class TemporalPass {

@@ -39,7 +39,7 @@ class TracePass {
         const gl::Buffer& rejected;    // one uint, counted up
     };
     struct Outputs {
-        const gl::Framebuffer& target;  // radiance, position, normal, material; with count: counts
+        const gl::Framebuffer& target;  // radiance, surface; with count: counts
     };
 
     explicit TracePass(const TraceFeatures& features);
