@@ -16,8 +16,6 @@ struct WaterFace {
     float level;
 };
 
-uint byte_or_air(ivec3 cell) { return inside_world(cell) ? cell_byte(cell) : MATERIAL_AIR; }
-
 // Height of the water's surface in the column of `cell`, at most a voxel above or below it.
 float water_level(ivec3 cell, float otherwise) {
     uint here = byte_or_air(cell);

@@ -47,8 +47,8 @@ struct Renderer::Parts {
     std::optional<TemporalPass> temporal[2][2];  // [blend][moments]
     std::optional<FilterPass> filter[2];         // [gaussian]
     std::optional<AccumulatePass> accumulate;
-    std::optional<DisplayPass> display[2];  // [radiance only]
-    std::optional<PickPass> pick[2];        // [through water]
+    std::optional<DisplayPass> display[2][2];    // [radiance only][guided]
+    std::optional<PickPass> pick[2];             // [through water]
 
     std::optional<RenderTargets> targets;
     Views views;
@@ -62,6 +62,7 @@ struct Renderer::Parts {
     std::uint64_t frame_index = 0;
     std::uint64_t frames_kept = 0;
     const gl::Texture* shown = nullptr;  // radiance of the last frame
+    const gl::Texture* cells = nullptr;  // of the last frame's simulation
 
     Parts(const Scene& scene, gl::Timers& timers_)
         : timers(timers_),
@@ -226,8 +227,11 @@ const gl::Texture& Renderer::Parts::reproject_and_filter(const Simulation& simul
 
 // The last frame: its radiance, or the view of it that is asked for.
 void Renderer::Parts::show(const gl::Framebuffer& target, bool raw) {
+    const bool guided = settings.guided_upsampling && targets->traced_px != targets->shown_px;
     if (settings.view == ViewKind::Picture)
-        built(display[raw], raw).record({.radiance = *shown}, {.picture = target}, timers);
+        built(display[raw][guided], raw, guided)
+            .record({.radiance = *shown, .surface = targets->frames[current].surface, .cells = *cells},
+                    {.picture = target}, timers);
     else
         views.show(*targets, current, raw, target, timers);
 }
@@ -242,6 +246,7 @@ const gl::Texture& Renderer::render(const Simulation& simulation, const Settings
     p.prepare_targets(settings, size_px);
     p.upload_frame(simulation, settings);
     p.current = 1 - p.current;
+    p.cells = &simulation.cells();
 
     const TraceFeatures features = p.features(simulation);
     if (features.emitters) p.update_emitters(simulation);
@@ -367,7 +372,7 @@ std::vector<std::string> Renderer::poll_reload() {
     for (int i = 0; i < 2; ++i) {
         for (auto& pass : parts_->temporal[i]) poll(pass);
         poll(parts_->filter[i]);
-        poll(parts_->display[i]);
+        for (auto& pass : parts_->display[i]) poll(pass);
         poll(parts_->pick[i]);
     }
     poll(parts_->accumulate);

@@ -25,6 +25,9 @@
     REAL(max_distance_vox, 4096, 1, 10000000, LIGHT, IMAGE, "Longest ray in voxels; beyond it is sky.")      \
     INT(samples_per_pixel, 1, 1, 64, LIGHT, IMAGE, "Paths per pixel in each frame.")                         \
     REAL(resolution_scale, 1, 0.25, 1, LIGHT, TARGETS, "Traced pixels per shown pixel, along each side.")    \
+    BOOL(guided_upsampling, true, LIGHT, IMAGE,                                                              \
+         "Where fewer pixels are traced than shown: spread their light within the surfaces of the shown "    \
+         "ones; off: bilinear.")                                                                             \
     CHOICE(Traversal, traversal, Distance, LIGHT, IMAGE,                                                     \
            "voxel: step through every voxel; distance: skip empty bricks. Same picture.")                    \
     CHOICE(                                                                                                  \
