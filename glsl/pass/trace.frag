@@ -9,6 +9,11 @@ layout(location = 1) out vec4 out_surface;   // lib/surface.glsl
 layout(location = 2) out vec2 out_counts;    // bounces and steps, means over the paths
 #endif
 
+#ifdef TRACE_CLEAR
+layout(binding = BINDING_BRICK_CHANGED) uniform usampler3D brick_changed;
+uniform uint still_since;  // water in bricks that changed after this version of the world moves
+#endif
+
 layout(std430, binding = 0) buffer RejectedBlock { uint rejected_samples; };
 
 void main() {
@@ -40,4 +45,12 @@ void main() {
     }
     out_radiance = vec4(sum, 1.0);
     out_surface = vec4(first.position_vox, surface_code(first.normal, first.material));
+#ifdef TRACE_CLEAR
+    if (first.material == MATERIAL_WATER) {
+        vec3 within = clamp(first.position_vox - 0.5 * first.normal, vec3(0.0), vec3(frame.world_size_vox.xyz - 1));
+        uint stamp = texelFetch(brick_changed, ivec3(within) >> BRICK_SHIFT, 0).r;
+        // Stamps wrap: compare by signed difference.
+        if (int(stamp - still_since) > 0) out_surface.w += SURFACE_MOVES;
+    }
+#endif
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <map>
 #include <optional>
 
@@ -27,6 +28,13 @@
 #include "shared/trace.h"
 
 namespace tarn {
+
+namespace {
+
+// Water counts as moving for so many frames after a change.
+constexpr std::size_t moving_frames = 8;
+
+}  // namespace
 
 struct Renderer::Parts {
     gl::Timers& timers;
@@ -58,6 +66,7 @@ struct Renderer::Parts {
     bool has_history = false;
     std::uint32_t world_change = 0;   // Simulation::last_change() seen by the last frame of exact mode
     std::uint64_t world_version = 0;  // seen by the last frame
+    std::deque<std::uint32_t> versions;  // likewise, low bits, of the last moving_frames frames; oldest first
     std::uint64_t lamps_edited = 0;   // emissive_edits() seen by the last frame
     std::uint64_t frame_index = 0;
     std::uint64_t frames_kept = 0;
@@ -247,6 +256,7 @@ const gl::Texture& Renderer::render(const Simulation& simulation, const Settings
     p.upload_frame(simulation, settings);
     p.current = 1 - p.current;
     p.cells = &simulation.cells();
+    p.versions.resize(moving_frames, static_cast<std::uint32_t>(simulation.version()));
 
     const TraceFeatures features = p.features(simulation);
     if (features.emitters) p.update_emitters(simulation);
@@ -257,7 +267,9 @@ const gl::Texture& Renderer::render(const Simulation& simulation, const Settings
                                    .metal_albedo_table = p.albedo.metal,
                                    .glass_albedo_table = p.albedo.glass,
                                    .emitters = features.emitters ? &*p.emitters : nullptr,
-                                   .rejected = p.rejected},
+                                   .rejected = p.rejected,
+                                   .brick_changed = simulation.brick_changed(),
+                                   .still_since = p.versions.front()},
                                   {.target = p.views.trace_target(*p.targets, p.current)}, p.timers);
     p.shown =
         settings.history == History::Exact ? &p.accumulate_exact() : &p.reproject_and_filter(simulation);
@@ -265,6 +277,8 @@ const gl::Texture& Renderer::render(const Simulation& simulation, const Settings
 
     p.has_history = true;
     p.world_version = simulation.version();
+    p.versions.pop_front();
+    p.versions.push_back(static_cast<std::uint32_t>(p.world_version));
     ++p.frame_index;
     p.frames_kept = std::min<std::uint64_t>(p.frames_kept + 1, FRAMES_KEPT_MAX);
     return p.targets->picture;
@@ -272,6 +286,7 @@ const gl::Texture& Renderer::render(const Simulation& simulation, const Settings
 
 void Renderer::world_replaced() {
     parts_->emitters.reset();
+    parts_->versions.clear();
     reset_history();
 }
 

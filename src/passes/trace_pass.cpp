@@ -46,6 +46,10 @@ void TracePass::record(const Inputs& inputs, const Outputs& outputs, gl::Timers&
         inputs.emitters->bind();
     }
     inputs.rejected.bind_storage(0);
+    if (features_.clear) {
+        inputs.brick_changed.bind(BINDING_BRICK_CHANGED);
+        program_.set("still_since", inputs.still_since);
+    }
     program_.use();
     outputs.target.draw_fullscreen();
 }

@@ -37,6 +37,8 @@ class TracePass {
         const gl::Texture& glass_albedo_table;
         const EmittersPass* emitters;  // null unless the feature is on
         const gl::Buffer& rejected;    // one uint, counted up
+        const gl::Texture& brick_changed;
+        std::uint32_t still_since;  // water in bricks that changed after this version of the world moves
     };
     struct Outputs {
         const gl::Framebuffer& target;  // radiance, surface; with count: counts
