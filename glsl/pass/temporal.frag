@@ -1,9 +1,14 @@
 // Reverse reprojection: the history of what this pixel shows, from four tested taps of the previous frame, blended
-// with the new frame.
+// with the new frame. HISTORY_UPSAMPLE: fewer pixels are traced than shown; a pixel that is not keeps its history as it
+// is, or takes the light of traced ones that show its surface.
 #include "lib/camera.glsl"
 #include "lib/materials.glsl"
 #include "lib/math.glsl"
 #include "lib/surface.glsl"
+#ifdef HISTORY_UPSAMPLE
+#include "lib/nearest_surface.glsl"
+#include "lib/scatter.glsl"
+#endif
 
 layout(binding = BINDING_BRICK_CHANGED) uniform usampler3D brick_changed;
 layout(binding = 4) uniform sampler2D radiance;
@@ -11,6 +16,9 @@ layout(binding = 5) uniform sampler2D surface;
 layout(binding = 6) uniform sampler2D previous_radiance;  // rgb; a: frames kept
 layout(binding = 7) uniform sampler2D previous_surface;
 
+#ifdef HISTORY_UPSAMPLE
+layout(location = 1) out vec4 out_surface;
+#endif
 #ifdef HISTORY_MOMENTS
 layout(binding = 8) uniform sampler2D previous_moments;
 uniform bool has_moments;  // the previous frame wrote some
@@ -22,7 +30,11 @@ layout(location = 0) out vec4 out_radiance;  // rgb; a: frames kept, this one in
 #ifdef HISTORY_MOMENTS
 // r: variance of one frame's luminance; g: sum of the squared weights of the frames in the mean, so that r * g is the
 // mean's variance; b: frames that r is made of
+#ifdef HISTORY_UPSAMPLE
+layout(location = 2) out vec4 out_moments;
+#else
 layout(location = 1) out vec4 out_moments;
+#endif
 #endif
 
 layout(std430, binding = 0) buffer RejectedBlock { uint rejected_samples; };
@@ -39,10 +51,96 @@ bool changed_since(vec3 at_vox) {
     return int(stamp - previous_version) > 0;
 }
 
+// The traced pixels that this frame has for a shown one.
+struct Traced {
+    vec4 surface;    // of the shown pixel
+    ivec2 taps[4];   // around it
+    vec4 weights;    // of their light; all of it where one of them was traced for this pixel
+    bool own;        // that is so
+};
+
+#ifdef HISTORY_UPSAMPLE
+#define SAMPLES_A_FRAME (float(frame.size_px.x * frame.size_px.y) / float(frame.size_px.z * frame.size_px.w))
+
+// History of so many samples is worth more than this frame's light of neighbours.
+const float SAMPLES_WITHOUT_NEIGHBOURS = 4.0;
+// What the light of neighbours counts for, in samples.
+const float NEIGHBOURS_WORTH = 0.25;
+
+Traced traced_around(ivec2 at) {
+    ivec2 last = frame.size_px.xy - 1;
+    vec2 cell = vec2(frame.size_px.zw) / vec2(frame.size_px.xy);
+    // The traced pixel whose cell this is may stand for a pixel on either side.
+    ivec2 home = min(ivec2((vec2(at) + 0.5) / cell), last);
+    ivec2 base = home - ivec2(greaterThan(shown_pixel(home), at));
+    Traced traced;
+    traced.own = false;
+    vec4 seen[4];
+    vec4 own = vec4(0.0);
+    for (int k = 0; k < 4; ++k) {
+        traced.taps[k] = clamp(base + ivec2(k & 1, k >> 1), ivec2(0), last);
+        ivec2 away = shown_pixel(traced.taps[k]) - at;
+        vec2 near = max(vec2(0.0), 1.0 - abs(vec2(away)) / cell);
+        traced.weights[k] = near.x * near.y + 1e-3;
+        seen[k] = texelFetch(surface, traced.taps[k], 0);
+        own[k] = float(away == ivec2(0));
+        if (away == ivec2(0)) traced.surface = seen[k];
+    }
+    traced.own = dot(own, own) > 0.0;
+    if (traced.own) {
+        traced.weights = own;
+        return traced;
+    }
+    vec2 size = vec2(frame.size_px.zw);
+    vec3 eye = frame.camera_position_vox.xyz;
+    vec3 dir = normalize(camera_ray((2.0 * gl_FragCoord.xy - size) / size));
+    traced.surface = on_plane_of(seen[0], eye, dir);
+    vec3 n = surface_normal(seen[0].w);
+    float tolerance = plane_tolerance(seen[0], eye);
+    bool search = false;
+    for (int k = 1; k < 4; ++k) search = search || !lies_on(seen[0], seen[k], n, tolerance);
+    // A loop that runs at most once: llvmpipe runs the body of a branch for lanes that do not take it.
+    for (bool once = search; once; once = false) {
+        float t;
+        traced.surface = nearest_surface(seen, eye, dir, t);
+        // What is thinner than the gaps between traced pixels was seen when its turn came.
+        vec2 before;
+        if (frame.world_size_vox.w != 0 && previous_ndc(traced.surface.xyz, before) && all(lessThan(abs(before), vec2(1.0)))) {
+            ivec2 corner = ivec2(floor((before * 0.5 + 0.5) * size - 0.5));
+            vec4 seen_before[4];
+            for (int k = 0; k < 4; ++k)
+                seen_before[k] =
+                    texelFetch(previous_surface, clamp(corner + ivec2(k & 1, k >> 1), ivec2(0), frame.size_px.zw - 1), 0);
+            float t_before;
+            vec4 found = nearest_surface(seen_before, eye, dir, t_before);
+            if (t_before < t || (t == TRAVERSAL_NEVER && found.w == SURFACE_CODE_SKY)) traced.surface = found;
+        }
+        n = surface_normal(traced.surface.w);
+        tolerance = plane_tolerance(traced.surface, eye);
+        for (int k = 0; k < 4; ++k)
+            if (!lies_on(traced.surface, seen[k], n, tolerance)) traced.weights[k] = 1e-9;
+    }
+    traced.weights /= dot(traced.weights, vec4(1.0));
+    return traced;
+}
+
+vec3 light_of(Traced traced) {
+    vec3 sum = vec3(0.0);
+    for (int k = 0; k < 4; ++k) sum += traced.weights[k] * texelFetch(radiance, traced.taps[k], 0).rgb;
+    return sum;
+}
+#else
+Traced traced_around(ivec2 at) {
+    return Traced(texelFetch(surface, at, 0), ivec2[4](at, at, at, at), vec4(1.0, 0.0, 0.0, 0.0), true);
+}
+vec3 light_of(Traced traced) { return texelFetch(radiance, traced.taps[0], 0).rgb; }
+#define SAMPLES_A_FRAME 1.0
+#endif
+
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
-    vec3 value = texelFetch(radiance, at, 0).rgb;
-    vec4 here = texelFetch(surface, at, 0);
+    Traced traced = traced_around(at);
+    vec4 here = traced.surface;
     vec3 n = surface_normal(here.w);
     uint id = surface_material(here.w);
 
@@ -84,15 +182,23 @@ void main() {
         history /= weight_sum;
         count = history.a;
         if (id != SURFACE_SKY && changed_since(here.xyz - 0.5 * n))
-            count = min(count, id == MATERIAL_WATER ? FRAMES_KEPT_IN_MOVING_WATER : FRAMES_KEPT_NEAR_CHANGE);
+            count = min(count, SAMPLES_A_FRAME *
+                                   (id == MATERIAL_WATER ? FRAMES_KEPT_IN_MOVING_WATER : FRAMES_KEPT_NEAR_CHANGE));
         count = min(count, frame.history.y - 1.0);
     }
-#ifdef HISTORY_BLEND
-    float alpha = count > 0.0 ? frame.history.x : 1.0;
-#else
-    float alpha = 1.0 / (count + 1.0);
+    float worth = 1.0;
+#ifdef HISTORY_UPSAMPLE
+    if (!traced.own) worth = count < SAMPLES_WITHOUT_NEIGHBOURS ? NEIGHBOURS_WORTH : 0.0;
+    out_surface = here;
 #endif
-    out_radiance = vec4(count > 0.0 ? mix(history.rgb, value, alpha) : value, count + 1.0);
+#ifdef HISTORY_BLEND
+    float alpha = count > 0.0 ? min(1.0, frame.history.x * worth) : 1.0;
+#else
+    float alpha = count > 0.0 ? worth / (count + worth) : 1.0;
+#endif
+    vec3 value = history.rgb;
+    for (bool once = alpha > 0.0; once; once = false) value = light_of(traced);
+    out_radiance = vec4(count > 0.0 ? mix(history.rgb, value, alpha) : value, count + worth);
 #ifdef HISTORY_MOMENTS
     moments = count > 0.0 ? moments / weight_sum : vec3(0.0);
     if (!is_finite(moments)) moments = vec3(0.0);
@@ -110,6 +216,7 @@ void main() {
         float share = 1.0 / (min(moments.b, frame.history.y - 1.0) + 1.0);
         out_moments = vec4(mix(moments.r, frame_variance, share),
                            (1.0 - alpha) * (1.0 - alpha) * moments.g + alpha * alpha, moments.b + 1.0, 0.0);
+        if (!traced.own) out_moments = vec4(moments, 0.0);
     } else {
         out_moments = vec4(0.0, 1.0, 0.0, 0.0);
     }

@@ -1,6 +1,7 @@
 // Paths of one frame: mean radiance per pixel and the surface seen.
 #include "lib/path.glsl"
 #include "lib/camera.glsl"
+#include "lib/scatter.glsl"
 #include "lib/surface.glsl"
 
 layout(location = 0) out vec4 out_radiance;  // rgb; a: 1
@@ -24,8 +25,10 @@ void main() {
     out_counts = vec2(0.0);
 #endif
     // From whole numbers: interpolated between corners, the rays of very wide views lose digits near the middle.
-    vec2 size = vec2(frame.size_px.xy);
-    vec2 ndc = (2.0 * gl_FragCoord.xy - size) / size;
+    bool scattered = option(OPTION_SCATTER);
+    vec2 size = vec2(scattered ? frame.size_px.zw : frame.size_px.xy);
+    vec2 center = scattered ? vec2(shown_pixel(ivec2(pixel))) + 0.5 : gl_FragCoord.xy;
+    vec2 ndc = (2.0 * center - size) / size;
     uint count = frame.counters.z;
     for (uint i = 0u; i < count; ++i) {
         rng_seed(pixel, frame.counters.x, i, frame.counters.y);

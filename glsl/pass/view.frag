@@ -79,8 +79,13 @@ vec3 color_of(vec3 value) {
 }
 
 void main() {
-    ivec2 at = ivec2(gl_FragCoord.xy * vec2(frame.size_px.xy) / vec2(frame.size_px.zw));
-    vec3 value = value_at(min(at, frame.size_px.xy - 1));
+#if SHOWN_VIEW == VIEW_BOUNCES || SHOWN_VIEW == VIEW_STEPS
+    ivec2 size = textureSize(counts, 0);
+#else
+    ivec2 size = textureSize(surface, 0);
+#endif
+    ivec2 at = ivec2(gl_FragCoord.xy * vec2(size) / vec2(frame.size_px.zw));
+    vec3 value = value_at(min(at, size - 1));
 #ifdef VIEW_RAW
     out_picture = vec4(value, 1.0);
 #else

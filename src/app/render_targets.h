@@ -28,35 +28,47 @@ struct Sums {
           correction({.label = "correction", .format = GL_RGBA32F, .size = {size, 0}}) {}
 };
 
-// Everything that depends on the picture's size.
+// Everything that depends on the picture's size. Upsampled: fewer pixels are traced than history keeps.
 struct RenderTargets {
     glm::ivec2 traced_px, shown_px;
-    bool exact;
+    bool exact, upsampled;
     gl::Texture radiance, filtered[2], picture;
+    gl::Texture traced_surface;  // upsampled
     FrameTargets frames[2];
     Sums sums[2];
     gl::Framebuffer trace_target[2], history_target[2], filter_target[2], sums_target[2], picture_target;
 
-    RenderTargets(glm::ivec2 traced, glm::ivec2 shown, bool exact_mode)
+    RenderTargets(glm::ivec2 traced, glm::ivec2 shown, bool exact_mode, bool upsampled_mode)
         : traced_px(traced),
           shown_px(shown),
           exact(exact_mode),
+          upsampled(upsampled_mode),
           radiance({.label = "radiance", .format = GL_RGBA32F, .size = {traced, 0}, .linear = true}),
           picture({.label = "picture", .format = GL_RGBA8, .size = {shown, 0}}),
           picture_target("picture", {&picture}) {
+        const glm::ivec2 kept = kept_px();
         for (gl::Texture& texture : filtered)
             texture =
-                gl::Texture({.label = "filtered", .format = GL_RGBA32F, .size = {traced, 0}, .linear = true});
+                gl::Texture({.label = "filtered", .format = GL_RGBA32F, .size = {kept, 0}, .linear = true});
+        if (upsampled)
+            traced_surface =
+                gl::Texture({.label = "traced surface", .format = GL_RGBA32F, .size = {traced, 0}});
         for (int i = 0; i < 2; ++i) {
-            frames[i] = FrameTargets(traced);
-            trace_target[i] = gl::Framebuffer("trace", {&radiance, &frames[i].surface});
-            history_target[i] = gl::Framebuffer("history", {&frames[i].history});
+            frames[i] = FrameTargets(kept);
+            trace_target[i] = gl::Framebuffer("trace", {&radiance, &traced_surface_of(i)});
+            history_target[i] =
+                upsampled ? gl::Framebuffer("history", {&frames[i].history, &frames[i].surface})
+                          : gl::Framebuffer("history", {&frames[i].history});
             filter_target[i] = gl::Framebuffer("filter", {&filtered[i]});
             if (exact) sums[i] = Sums(traced);
         }
         if (!exact) return;
         for (int i = 0; i < 2; ++i)
             sums_target[i] = gl::Framebuffer("sums", {&sums[i].sum, &sums[i].correction, &filtered[i]});
+    }
+    glm::ivec2 kept_px() const { return upsampled ? shown_px : traced_px; }
+    const gl::Texture& traced_surface_of(int set) const {
+        return upsampled ? traced_surface : frames[set].surface;
     }
 };
 

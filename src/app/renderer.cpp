@@ -52,11 +52,11 @@ struct Renderer::Parts {
     double compile_ms = 0;
     std::map<TraceFeatures, TracePass> trace;
     std::optional<EmittersPass> emitters;
-    std::optional<TemporalPass> temporal[2][2];  // [blend][moments]
+    std::optional<TemporalPass> temporal[2][2][2];  // [blend][moments][upsample]
     std::optional<FilterPass> filter[2];         // [gaussian]
     std::optional<AccumulatePass> accumulate;
-    std::optional<DisplayPass> display[2][2];    // [radiance only][guided]
-    std::optional<PickPass> pick[2];             // [through water]
+    std::optional<DisplayPass> display[2];  // [radiance only]
+    std::optional<PickPass> pick[2];        // [through water]
 
     std::optional<RenderTargets> targets;
     Views views;
@@ -71,7 +71,6 @@ struct Renderer::Parts {
     std::uint64_t frame_index = 0;
     std::uint64_t frames_kept = 0;
     const gl::Texture* shown = nullptr;  // radiance of the last frame
-    const gl::Texture* cells = nullptr;  // of the last frame's simulation
 
     Parts(const Scene& scene, gl::Timers& timers_)
         : timers(timers_),
@@ -137,11 +136,14 @@ void Renderer::Parts::prepare_targets(const Settings& now, glm::ivec2 size_px) {
     const glm::ivec2 traced =
         glm::max(glm::ivec2(1), glm::ivec2(glm::round(glm::vec2(size_px) * now.resolution_scale)));
     const bool exact = now.history == History::Exact;
-    if (targets && targets->traced_px == traced && targets->shown_px == size_px && targets->exact == exact)
+    const bool averaged = now.history == History::Count || now.history == History::Blend;
+    const bool upsampled = averaged && now.guided_upsampling && traced != size_px;
+    if (targets && targets->traced_px == traced && targets->shown_px == size_px && targets->exact == exact &&
+        targets->upsampled == upsampled)
         return;
     views.drop_targets();  // before the new ones take memory
     targets.reset();
-    targets.emplace(traced, size_px, exact);
+    targets.emplace(traced, size_px, exact, upsampled);
     has_history = false;
 }
 
@@ -176,7 +178,8 @@ void Renderer::Parts::upload_frame(const Simulation& simulation, const Settings&
                               .frame_index = static_cast<std::uint32_t>(frame_index),
                               .frames_kept = static_cast<std::uint32_t>(frames_kept),
                               .traced_px = targets->traced_px,
-                              .shown_px = targets->shown_px});
+                              .shown_px = targets->shown_px,
+                              .scattered = targets->upsampled});
     if (has_history) set_previous_eye(block, before);
     block.world_size_vox.w = has_history ? 1 : 0;
     frame_block.upload(std::span(&block, 1));
@@ -209,9 +212,11 @@ const gl::Texture& Renderer::Parts::reproject_and_filter(const Simulation& simul
     if (settings.history != History::None) {
         const bool blend = settings.history == History::Blend;
         const bool moments = settings.view == ViewKind::Variance;
-        built(temporal[blend][moments], blend, moments)
-            .record({.current = surfaces(current, targets->radiance),
+        const bool upsample = targets->upsampled;
+        built(temporal[blend][moments][upsample], blend, moments, upsample)
+            .record({.current = {targets->radiance, targets->traced_surface_of(current)},
                      .previous = surfaces(1 - current, targets->frames[1 - current].history),
+                     .cells = simulation.cells(),
                      .brick_changed = simulation.brick_changed(),
                      .previous_version = static_cast<std::uint32_t>(world_version),
                      .rejected = rejected,
@@ -236,11 +241,8 @@ const gl::Texture& Renderer::Parts::reproject_and_filter(const Simulation& simul
 
 // The last frame: its radiance, or the view of it that is asked for.
 void Renderer::Parts::show(const gl::Framebuffer& target, bool raw) {
-    const bool guided = settings.guided_upsampling && targets->traced_px != targets->shown_px;
     if (settings.view == ViewKind::Picture)
-        built(display[raw][guided], raw, guided)
-            .record({.radiance = *shown, .surface = targets->frames[current].surface, .cells = *cells},
-                    {.picture = target}, timers);
+        built(display[raw], raw).record({.radiance = *shown}, {.picture = target}, timers);
     else
         views.show(*targets, current, raw, target, timers);
 }
@@ -255,7 +257,6 @@ const gl::Texture& Renderer::render(const Simulation& simulation, const Settings
     p.prepare_targets(settings, size_px);
     p.upload_frame(simulation, settings);
     p.current = 1 - p.current;
-    p.cells = &simulation.cells();
     p.versions.resize(moving_frames, static_cast<std::uint32_t>(simulation.version()));
 
     const TraceFeatures features = p.features(simulation);
@@ -385,9 +386,10 @@ std::vector<std::string> Renderer::poll_reload() {
     for (auto& [features, pass] : parts_->trace) poll_program(pass.program());
     parts_->views.for_each_program(poll_program);
     for (int i = 0; i < 2; ++i) {
-        for (auto& pass : parts_->temporal[i]) poll(pass);
+        for (auto& pair : parts_->temporal[i])
+            for (auto& pass : pair) poll(pass);
         poll(parts_->filter[i]);
-        for (auto& pass : parts_->display[i]) poll(pass);
+        poll(parts_->display[i]);
         poll(parts_->pick[i]);
     }
     poll(parts_->accumulate);

@@ -8,9 +8,13 @@ Views::Targets::Targets(const RenderTargets& targets)
     : counts({.label = "counts", .format = GL_RG32F, .size = {targets.traced_px, 0}}) {
     for (int i = 0; i < 2; ++i) {
         const FrameTargets& frame = targets.frames[i];
-        moments[i] = gl::Texture({.label = "moments", .format = GL_RGBA32F, .size = {targets.traced_px, 0}});
-        trace[i] = gl::Framebuffer("trace with counts", {&targets.radiance, &frame.surface, &counts});
-        history[i] = gl::Framebuffer("history with moments", {&frame.history, &moments[i]});
+        moments[i] = gl::Texture({.label = "moments", .format = GL_RGBA32F, .size = {targets.kept_px(), 0}});
+        trace[i] = gl::Framebuffer("trace with counts",
+                                   {&targets.radiance, &targets.traced_surface_of(i), &counts});
+        history[i] =
+            targets.upsampled
+                ? gl::Framebuffer("history with moments", {&frame.history, &frame.surface, &moments[i]})
+                : gl::Framebuffer("history with moments", {&frame.history, &moments[i]});
     }
 }
 

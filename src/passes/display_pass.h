@@ -11,21 +11,17 @@ class DisplayPass {
   public:
     struct Inputs {
         const gl::Texture& radiance;  // linear filtering where its size differs from the target's
-        const gl::Texture& surface;  // guided: of the radiance's pixels
-        const gl::Texture& cells;    // guided
     };
     struct Outputs {
         const gl::Framebuffer& picture;
     };
 
-    // radiance_only: the target keeps linear radiance at the shown size; otherwise tone-mapped sRGB. guided:
-    // radiance of fewer pixels is spread over the shown ones within their surfaces.
-    DisplayPass(bool radiance_only, bool guided);
+    // radiance_only: the target keeps linear radiance at the shown size; otherwise tone-mapped sRGB.
+    explicit DisplayPass(bool radiance_only);
     void record(const Inputs& inputs, const Outputs& outputs, gl::Timers& timers) const;
     gl::Program& program() { return program_; }
 
   private:
-    bool guided_;
     gl::Program program_;
 };
 

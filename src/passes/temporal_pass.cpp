@@ -6,25 +6,27 @@ namespace tarn {
 
 namespace {
 
-gl::ProgramDesc describe(bool blend, bool moments) {
+gl::ProgramDesc describe(bool blend, bool moments, bool upsample) {
     gl::ProgramDesc desc{.label = blend ? "temporal blend" : "temporal",
                          .compute = {},
                          .vertex = "pass/fullscreen.vert",
                          .fragment = "pass/temporal.frag",
                          .defines = {}};
     if (blend) desc.defines.emplace_back("HISTORY_BLEND", "1");
+    if (upsample) desc.defines.emplace_back("HISTORY_UPSAMPLE", "1");
     if (moments) desc.defines.emplace_back("HISTORY_MOMENTS", "1");
     return desc;
 }
 
 }  // namespace
 
-TemporalPass::TemporalPass(bool blend, bool moments)
-    : moments_(moments), program_(describe(blend, moments)) {}
+TemporalPass::TemporalPass(bool blend, bool moments, bool upsample)
+    : moments_(moments), upsample_(upsample), program_(describe(blend, moments, upsample)) {}
 
 void TemporalPass::record(const Inputs& inputs, const Outputs& outputs, gl::Timers& timers) const {
     const auto scope = timers.scope("temporal");
     inputs.brick_changed.bind(BINDING_BRICK_CHANGED);
+    if (upsample_) inputs.cells.bind(BINDING_CELLS);
     inputs.current.radiance.bind(BINDING_FIRST_INPUT);
     inputs.current.surface.bind(BINDING_FIRST_INPUT + 1);
     inputs.previous.radiance.bind(BINDING_FIRST_INPUT + 2);

@@ -19,25 +19,27 @@ struct SurfaceBuffers {
 class TemporalPass {
   public:
     struct Inputs {
-        SurfaceBuffers current;
+        SurfaceBuffers current;  // as traced
         SurfaceBuffers previous;  // radiance: history, alpha: frames kept
+        const gl::Texture& cells;
         const gl::Texture& brick_changed;
         std::uint32_t previous_version;  // of the world, when the previous frame was made
         const gl::Buffer& rejected;
         const gl::Texture* previous_moments = nullptr;  // with moments; null where the last frame kept none
     };
     struct Outputs {
-        const gl::Framebuffer& history;  // with moments: history, moments
+        const gl::Framebuffer& history;  // history; upsample: surface; with moments: moments
     };
 
     // blend: constant weight; otherwise a running mean. moments: what the variance of the mean follows from,
     // too.
-    TemporalPass(bool blend, bool moments);
+    // upsample: of fewer pixels than history has.
+    TemporalPass(bool blend, bool moments, bool upsample);
     void record(const Inputs& inputs, const Outputs& outputs, gl::Timers& timers) const;
     gl::Program& program() { return program_; }
 
   private:
-    bool moments_;
+    bool moments_, upsample_;
     gl::Program program_;
 };
 
