@@ -26,6 +26,12 @@ uniform bool has_moments;  // the previous frame wrote some
 
 uniform uint previous_version;  // of the world, when the previous frame was made
 
+#ifndef HISTORY_BLEND
+layout(binding = 9) uniform sampler2D retraced;         // the previous frame's paths in this world, some of them
+layout(binding = 10) uniform sampler2D traced_before;   // the previous frame's light as traced
+uniform bool is_retraced;
+#endif
+
 layout(location = 0) out vec4 out_radiance;  // rgb; a: frames kept, this one included
 #ifdef HISTORY_MOMENTS
 // r: variance of one frame's luminance; g: sum of the squared weights of the frames in the mean, so that r * g is the
@@ -43,6 +49,28 @@ layout(std430, binding = 0) buffer RejectedBlock { uint rejected_samples; };
 // water takes many bounces and is noisier by far than the lag that more frames bring.
 const float FRAMES_KEPT_NEAR_CHANGE = 3.0;
 const float FRAMES_KEPT_IN_MOVING_WATER = 10.0;
+
+#ifndef HISTORY_BLEND
+// Frames that may be kept of what the previous frame showed at `ndc`: their bias by the share d of the light that the
+// change of the world took or gave outweighs their noise beyond 1 / d^2.
+float frames_kept_of_light(vec2 ndc) {
+    ivec2 last = textureSize(retraced, 0) - 1;
+    ivec2 last_traced = textureSize(traced_before, 0) - 1;
+    ivec2 base = ivec2(floor((ndc * 0.5 + 0.5) * vec2(last_traced + 1) / float(RETRACE_STRIDE) - 0.5));
+    float difference = 0.0;
+    float sum = 1e-20;
+    for (int k = 0; k < 4; ++k) {
+        ivec2 cell = clamp(base + ivec2(k & 1, k >> 1), ivec2(0), last);
+        ivec2 pixel = min(cell * int(RETRACE_STRIDE) + int(RETRACE_STRIDE) / 2, last_traced);
+        float now = luminance(texelFetch(retraced, cell, 0).rgb);
+        float before = luminance(texelFetch(traced_before, pixel, 0).rgb);
+        difference += abs(now - before);
+        sum += max(now, before);
+    }
+    float share = min(1.0, difference / sum);
+    return is_finite(share) ? 1.0 / max(share * share, 1e-6) : 1.0;
+}
+#endif
 
 bool changed_since(vec3 at_vox) {
     ivec3 cell = clamp(ivec3(floor(at_vox)), ivec3(0), frame.world_size_vox.xyz - 1);
@@ -88,7 +116,7 @@ Traced traced_around(ivec2 at) {
     }
     traced.own = dot(own, own) > 0.0;
     if (traced.own) {
-        traced.weights = own;
+        traced.weights = own / dot(own, own);  // the last tap may be there twice
         return traced;
     }
     vec2 size = vec2(frame.size_px.zw);
@@ -99,18 +127,24 @@ Traced traced_around(ivec2 at) {
     float tolerance = plane_tolerance(seen[0], eye);
     bool search = false;
     for (int k = 1; k < 4; ++k) search = search || !lies_on(seen[0], seen[k], n, tolerance);
+    // What is thinner than the gaps between traced pixels was seen when its turn came.
+    vec2 before;
+    bool was_seen = frame.world_size_vox.w != 0 && previous_ndc(traced.surface.xyz, before) &&
+                    all(lessThan(abs(before), vec2(1.0)));
+    vec2 at_before = (before * 0.5 + 0.5) * size;
+    if (was_seen && !search)
+        search = !lies_on(seen[0], texelFetch(previous_surface, ivec2(at_before), 0), n, tolerance);
     // A loop that runs at most once: llvmpipe runs the body of a branch for lanes that do not take it.
     for (bool once = search; once; once = false) {
         float t;
         traced.surface = nearest_surface(seen, eye, dir, t);
-        // What is thinner than the gaps between traced pixels was seen when its turn came.
-        vec2 before;
-        if (frame.world_size_vox.w != 0 && previous_ndc(traced.surface.xyz, before) && all(lessThan(abs(before), vec2(1.0)))) {
-            ivec2 corner = ivec2(floor((before * 0.5 + 0.5) * size - 0.5));
+        if (was_seen) {
+            ivec2 corner = ivec2(floor(at_before - 0.49));
             vec4 seen_before[4];
-            for (int k = 0; k < 4; ++k)
-                seen_before[k] =
-                    texelFetch(previous_surface, clamp(corner + ivec2(k & 1, k >> 1), ivec2(0), frame.size_px.zw - 1), 0);
+            for (int k = 0; k < 4; ++k) {
+                ivec2 tap = clamp(corner + ivec2(k & 1, k >> 1), ivec2(0), frame.size_px.zw - 1);
+                seen_before[k] = texelFetch(previous_surface, tap, 0);
+            }
             float t_before;
             vec4 found = nearest_surface(seen_before, eye, dir, t_before);
             if (t_before < t || (t == TRAVERSAL_NEVER && found.w == SURFACE_CODE_SKY)) traced.surface = found;
@@ -185,24 +219,32 @@ void main() {
             count = min(count, SAMPLES_A_FRAME *
                                    (id == MATERIAL_WATER ? FRAMES_KEPT_IN_MOVING_WATER : FRAMES_KEPT_NEAR_CHANGE));
         count = min(count, frame.history.y - 1.0);
+#ifndef HISTORY_BLEND
+        for (bool once = is_retraced && !is_moving(here.w); once; once = false)
+            count = min(count, max(1.0, SAMPLES_A_FRAME * frames_kept_of_light(ndc)));
+#endif
     }
     float worth = 1.0;
 #ifdef HISTORY_UPSAMPLE
     if (!traced.own) worth = count < SAMPLES_WITHOUT_NEIGHBOURS ? NEIGHBOURS_WORTH : 0.0;
     out_surface = here;
 #endif
+    vec3 value = history.rgb;
+    for (bool once = worth > 0.0 || count == 0.0; once; once = false) value = light_of(traced);
 #ifdef HISTORY_BLEND
     float alpha = count > 0.0 ? min(1.0, frame.history.x * worth) : 1.0;
 #else
     float alpha = count > 0.0 ? worth / (count + worth) : 1.0;
 #endif
-    vec3 value = history.rgb;
-    for (bool once = alpha > 0.0; once; once = false) value = light_of(traced);
     out_radiance = vec4(count > 0.0 ? mix(history.rgb, value, alpha) : value, count + worth);
 #ifdef HISTORY_MOMENTS
     moments = count > 0.0 ? moments / weight_sum : vec3(0.0);
     if (!is_finite(moments)) moments = vec3(0.0);
-    if (count > 0.0) {
+    if (count == 0.0) {
+        out_moments = vec4(0.0, 1.0, 0.0, 0.0);
+    } else if (!traced.own) {
+        out_moments = vec4(moments, 0.0);
+    } else {
         // A history from before the moments were kept: the squares of its weights as they are in the long run.
 #ifdef HISTORY_BLEND
         float settled = alpha / (2.0 - alpha);
@@ -216,9 +258,6 @@ void main() {
         float share = 1.0 / (min(moments.b, frame.history.y - 1.0) + 1.0);
         out_moments = vec4(mix(moments.r, frame_variance, share),
                            (1.0 - alpha) * (1.0 - alpha) * moments.g + alpha * alpha, moments.b + 1.0, 0.0);
-        if (!traced.own) out_moments = vec4(moments, 0.0);
-    } else {
-        out_moments = vec4(0.0, 1.0, 0.0, 0.0);
     }
 #endif
 }

@@ -1,4 +1,4 @@
-// Paths of one frame: mean radiance per pixel and the surface seen.
+// Paths of one frame: mean radiance per pixel and the surface seen. Of all pixels, or of one in stride x stride.
 #include "lib/path.glsl"
 #include "lib/camera.glsl"
 #include "lib/scatter.glsl"
@@ -15,10 +15,12 @@ layout(binding = BINDING_BRICK_CHANGED) uniform usampler3D brick_changed;
 uniform uint still_since;  // water in bricks that changed after this version of the world moves
 #endif
 
+uniform uint stride;
+
 layout(std430, binding = 0) buffer RejectedBlock { uint rejected_samples; };
 
 void main() {
-    uvec2 pixel = uvec2(gl_FragCoord.xy);
+    uvec2 pixel = min(uvec2(gl_FragCoord.xy) * stride + stride / 2u, uvec2(frame.size_px.xy) - 1u);
     vec3 sum = vec3(0.0);
     FirstSurface first;
 #ifdef TRACE_COUNT
@@ -27,7 +29,7 @@ void main() {
     // From whole numbers: interpolated between corners, the rays of very wide views lose digits near the middle.
     bool scattered = option(OPTION_SCATTER);
     vec2 size = vec2(scattered ? frame.size_px.zw : frame.size_px.xy);
-    vec2 center = scattered ? vec2(shown_pixel(ivec2(pixel))) + 0.5 : gl_FragCoord.xy;
+    vec2 center = scattered ? vec2(shown_pixel(ivec2(pixel))) + 0.5 : vec2(pixel) + 0.5;
     vec2 ndc = (2.0 * center - size) / size;
     uint count = frame.counters.z;
     for (uint i = 0u; i < count; ++i) {

@@ -26,6 +26,9 @@ TARN_CONSTANT float ALBEDO_FACET_SPREAD = 2.0f;
 // In place of a material's id where a ray meets the sky.
 TARN_CONSTANT TARN_UINT SURFACE_SKY = 255u;
 
+// Of the pixels, along x and y, whose last path is traced again when the world changed.
+TARN_CONSTANT TARN_UINT RETRACE_STRIDE = 3u;
+
 // Most frames in exact mode's mean: a counter of them and of this one ends there.
 TARN_CONSTANT TARN_UINT FRAMES_KEPT_MAX = 0xfffffffeu;
 

@@ -4,6 +4,7 @@
 
 #include "gl/framebuffer.h"
 #include "gl/texture.h"
+#include "shared/trace.h"
 
 namespace tarn {
 
@@ -32,18 +33,20 @@ struct Sums {
 struct RenderTargets {
     glm::ivec2 traced_px, shown_px;
     bool exact, upsampled;
-    gl::Texture radiance, filtered[2], picture;
+    gl::Texture radiance[2];  // traced; current and previous
+    gl::Texture filtered[2], picture;
     gl::Texture traced_surface;  // upsampled
+    gl::Texture retraced;        // of one traced pixel in RETRACE_STRIDE^2
     FrameTargets frames[2];
     Sums sums[2];
-    gl::Framebuffer trace_target[2], history_target[2], filter_target[2], sums_target[2], picture_target;
+    gl::Framebuffer trace_target[2], history_target[2], filter_target[2], sums_target[2], picture_target,
+        retrace_target;
 
     RenderTargets(glm::ivec2 traced, glm::ivec2 shown, bool exact_mode, bool upsampled_mode)
         : traced_px(traced),
           shown_px(shown),
           exact(exact_mode),
           upsampled(upsampled_mode),
-          radiance({.label = "radiance", .format = GL_RGBA32F, .size = {traced, 0}, .linear = true}),
           picture({.label = "picture", .format = GL_RGBA8, .size = {shown, 0}}),
           picture_target("picture", {&picture}) {
         const glm::ivec2 kept = kept_px();
@@ -54,14 +57,21 @@ struct RenderTargets {
             traced_surface =
                 gl::Texture({.label = "traced surface", .format = GL_RGBA32F, .size = {traced, 0}});
         for (int i = 0; i < 2; ++i) {
+            radiance[i] =
+                gl::Texture({.label = "radiance", .format = GL_RGBA32F, .size = {traced, 0}, .linear = true});
             frames[i] = FrameTargets(kept);
-            trace_target[i] = gl::Framebuffer("trace", {&radiance, &traced_surface_of(i)});
+            trace_target[i] = gl::Framebuffer("trace", {&radiance[i], &traced_surface_of(i)});
             history_target[i] =
                 upsampled ? gl::Framebuffer("history", {&frames[i].history, &frames[i].surface})
                           : gl::Framebuffer("history", {&frames[i].history});
             filter_target[i] = gl::Framebuffer("filter", {&filtered[i]});
             if (exact) sums[i] = Sums(traced);
         }
+        const int stride = static_cast<int>(RETRACE_STRIDE);
+        retraced = gl::Texture({.label = "retraced",
+                                .format = GL_RGBA32F,
+                                .size = {(traced + stride - 1) / stride, 0}});
+        retrace_target = gl::Framebuffer("retrace", {&retraced});
         if (!exact) return;
         for (int i = 0; i < 2; ++i)
             sums_target[i] = gl::Framebuffer("sums", {&sums[i].sum, &sums[i].correction, &filtered[i]});

@@ -61,6 +61,7 @@ struct Renderer::Parts {
     std::optional<RenderTargets> targets;
     Views views;
     FrameBlock block;   // of the last frame
+    FrameBlock block_before;
     Settings settings;  // of the last frame
     int current = 0;    // which of the two sets the last frame wrote
     bool has_history = false;
@@ -104,8 +105,10 @@ struct Renderer::Parts {
         return {radiance, frame.surface};
     }
     void update_emitters(const Simulation& simulation);
+    TracePass::Inputs trace_inputs(const Simulation& simulation, const TraceFeatures& features);
+    bool retrace(const Simulation& simulation, TraceFeatures features);
     const gl::Texture& accumulate_exact();
-    const gl::Texture& reproject_and_filter(const Simulation& simulation);
+    const gl::Texture& reproject_and_filter(const Simulation& simulation, bool retraced);
     void show(const gl::Framebuffer& target, bool raw);
 };
 
@@ -170,7 +173,7 @@ void Renderer::Parts::upload_frame(const Simulation& simulation, const Settings&
     apply_water_settings(now, materials);
     const auto entries = make_material_block(materials);
     material_block.upload(entries);
-    const FrameBlock before = block;
+    block_before = block;
     block = make_frame_block({.settings = now,
                               .world_size_vox = simulation.size_vox(),
                               .metres_per_voxel = metres_per_voxel,
@@ -180,7 +183,7 @@ void Renderer::Parts::upload_frame(const Simulation& simulation, const Settings&
                               .traced_px = targets->traced_px,
                               .shown_px = targets->shown_px,
                               .scattered = targets->upsampled});
-    if (has_history) set_previous_eye(block, before);
+    if (has_history) set_previous_eye(block, block_before);
     block.world_size_vox.w = has_history ? 1 : 0;
     frame_block.upload(std::span(&block, 1));
     frame_block.bind_uniform(BINDING_FRAME);
@@ -195,10 +198,38 @@ void Renderer::Parts::update_emitters(const Simulation& simulation) {
                 timers);
 }
 
+TracePass::Inputs Renderer::Parts::trace_inputs(const Simulation& simulation, const TraceFeatures& features) {
+    return {.cells = simulation.cells(),
+            .brick_distance = simulation.brick_distance(),
+            .albedo_table = albedo.dielectric,
+            .metal_albedo_table = albedo.metal,
+            .glass_albedo_table = albedo.glass,
+            .emitters = features.emitters ? &*emitters : nullptr,
+            .rejected = rejected,
+            .brick_changed = simulation.brick_changed(),
+            .still_since = versions.front()};
+}
+
+// Some of the last frame's paths, with its eye and its random numbers, in the world as it is now. False where the
+// world has not changed or nothing asks for it.
+bool Renderer::Parts::retrace(const Simulation& simulation, TraceFeatures features) {
+    if (settings.history != History::Count || !settings.retrace_changes || !has_history) return false;
+    if (simulation.version() == world_version) return false;
+    const std::uint32_t since = simulation.last_change() - static_cast<std::uint32_t>(world_version);
+    if (since == 0 || since > INT32_MAX) return false;
+    features.count = false;
+    frame_block.upload(std::span(&block_before, 1));
+    TracePass::Inputs inputs = trace_inputs(simulation, features);
+    inputs.stride = RETRACE_STRIDE;
+    trace_pass(features).record(inputs, {.target = targets->retrace_target}, timers);
+    frame_block.upload(std::span(&block, 1));
+    return true;
+}
+
 const gl::Texture& Renderer::Parts::accumulate_exact() {
     const Sums& previous = targets->sums[1 - current];
     built(accumulate)
-        .record({.radiance = targets->radiance,
+        .record({.radiance = targets->radiance[current],
                  .previous_sum = previous.sum,
                  .previous_correction = previous.correction,
                  .previous_mean = targets->filtered[1 - current],
@@ -207,19 +238,21 @@ const gl::Texture& Renderer::Parts::accumulate_exact() {
     return targets->filtered[current];
 }
 
-const gl::Texture& Renderer::Parts::reproject_and_filter(const Simulation& simulation) {
-    const gl::Texture* radiance = &targets->radiance;
+const gl::Texture& Renderer::Parts::reproject_and_filter(const Simulation& simulation, bool retraced) {
+    const gl::Texture* radiance = &targets->radiance[current];
     if (settings.history != History::None) {
         const bool blend = settings.history == History::Blend;
         const bool moments = settings.view == ViewKind::Variance;
         const bool upsample = targets->upsampled;
         built(temporal[blend][moments][upsample], blend, moments, upsample)
-            .record({.current = {targets->radiance, targets->traced_surface_of(current)},
+            .record({.current = {targets->radiance[current], targets->traced_surface_of(current)},
                      .previous = surfaces(1 - current, targets->frames[1 - current].history),
                      .cells = simulation.cells(),
                      .brick_changed = simulation.brick_changed(),
                      .previous_version = static_cast<std::uint32_t>(world_version),
                      .rejected = rejected,
+                     .traced_before = retraced ? &targets->radiance[1 - current] : nullptr,
+                     .retraced = retraced ? &targets->retraced : nullptr,
                      .previous_moments = views.previous_moments(current)},
                     {.history = views.history_target(*targets, current)}, timers);
         radiance = &targets->frames[current].history;
@@ -262,18 +295,11 @@ const gl::Texture& Renderer::render(const Simulation& simulation, const Settings
     const TraceFeatures features = p.features(simulation);
     if (features.emitters) p.update_emitters(simulation);
     p.views.prepare(settings, *p.targets, p.has_history);
-    p.trace_pass(features).record({.cells = simulation.cells(),
-                                   .brick_distance = simulation.brick_distance(),
-                                   .albedo_table = p.albedo.dielectric,
-                                   .metal_albedo_table = p.albedo.metal,
-                                   .glass_albedo_table = p.albedo.glass,
-                                   .emitters = features.emitters ? &*p.emitters : nullptr,
-                                   .rejected = p.rejected,
-                                   .brick_changed = simulation.brick_changed(),
-                                   .still_since = p.versions.front()},
+    const bool retraced = p.retrace(simulation, features);
+    p.trace_pass(features).record(p.trace_inputs(simulation, features),
                                   {.target = p.views.trace_target(*p.targets, p.current)}, p.timers);
     p.shown =
-        settings.history == History::Exact ? &p.accumulate_exact() : &p.reproject_and_filter(simulation);
+        settings.history == History::Exact ? &p.accumulate_exact() : &p.reproject_and_filter(simulation, retraced);
     p.show(p.targets->picture_target, false);
 
     p.has_history = true;

@@ -10,7 +10,7 @@ Views::Targets::Targets(const RenderTargets& targets)
         const FrameTargets& frame = targets.frames[i];
         moments[i] = gl::Texture({.label = "moments", .format = GL_RGBA32F, .size = {targets.kept_px(), 0}});
         trace[i] = gl::Framebuffer("trace with counts",
-                                   {&targets.radiance, &targets.traced_surface_of(i), &counts});
+                                   {&targets.radiance[i], &targets.traced_surface_of(i), &counts});
         history[i] =
             targets.upsampled
                 ? gl::Framebuffer("history with moments", {&frame.history, &frame.surface, &moments[i]})

@@ -51,6 +51,7 @@ constexpr PresetRow presets[] = {{"max_bounces", {"8", "16", "24", "64", "1024"}
                                  {"history", {"blend", "count", "count", "count", "exact"}},
                                  {"history_alpha", {"0.1", "0.1", "0.1", "0.1", "0.1"}},
                                  {"history_cap", {"48", "32", "48", "256", "48"}},
+                                 {"retrace_changes", {"false", "true", "true", "true", "false"}},
                                  {"filter", {"gaussian", "edge_aware", "edge_aware", "edge_aware", "none"}},
                                  {"filter_passes", {"1", "1", "1", "1", "1"}}};
 

@@ -21,7 +21,7 @@ gl::ProgramDesc describe(bool blend, bool moments, bool upsample) {
 }  // namespace
 
 TemporalPass::TemporalPass(bool blend, bool moments, bool upsample)
-    : moments_(moments), upsample_(upsample), program_(describe(blend, moments, upsample)) {}
+    : blend_(blend), moments_(moments), upsample_(upsample), program_(describe(blend, moments, upsample)) {}
 
 void TemporalPass::record(const Inputs& inputs, const Outputs& outputs, gl::Timers& timers) const {
     const auto scope = timers.scope("temporal");
@@ -32,6 +32,13 @@ void TemporalPass::record(const Inputs& inputs, const Outputs& outputs, gl::Time
     inputs.previous.radiance.bind(BINDING_FIRST_INPUT + 2);
     inputs.previous.surface.bind(BINDING_FIRST_INPUT + 3);
     inputs.rejected.bind_storage(0);
+    if (!blend_) {
+        if (inputs.retraced != nullptr) {
+            inputs.retraced->bind(BINDING_FIRST_INPUT + 5);
+            inputs.traced_before->bind(BINDING_FIRST_INPUT + 6);
+        }
+        program_.set("is_retraced", inputs.retraced != nullptr ? 1 : 0);
+    }
     if (moments_) {
         if (inputs.previous_moments != nullptr) inputs.previous_moments->bind(BINDING_FIRST_INPUT + 4);
         program_.set("has_moments", inputs.previous_moments != nullptr ? 1 : 0);

@@ -25,6 +25,10 @@ class TemporalPass {
         const gl::Texture& brick_changed;
         std::uint32_t previous_version;  // of the world, when the previous frame was made
         const gl::Buffer& rejected;
+        // The previous frame's light as traced, and some of its paths in this world; null where none was traced
+        // again. Not with blend.
+        const gl::Texture* traced_before = nullptr;
+        const gl::Texture* retraced = nullptr;
         const gl::Texture* previous_moments = nullptr;  // with moments; null where the last frame kept none
     };
     struct Outputs {
@@ -39,7 +43,7 @@ class TemporalPass {
     gl::Program& program() { return program_; }
 
   private:
-    bool moments_, upsample_;
+    bool blend_, moments_, upsample_;
     gl::Program program_;
 };
 

@@ -50,6 +50,7 @@ void TracePass::record(const Inputs& inputs, const Outputs& outputs, gl::Timers&
         inputs.brick_changed.bind(BINDING_BRICK_CHANGED);
         program_.set("still_since", inputs.still_since);
     }
+    program_.set("stride", inputs.stride);
     program_.use();
     outputs.target.draw_fullscreen();
 }

@@ -39,6 +39,7 @@ class TracePass {
         const gl::Buffer& rejected;    // one uint, counted up
         const gl::Texture& brick_changed;
         std::uint32_t still_since;  // water in bricks that changed after this version of the world moves
+        std::uint32_t stride = 1;   // of the pixels traced, along x and y
     };
     struct Outputs {
         const gl::Framebuffer& target;  // radiance, surface; with count: counts
