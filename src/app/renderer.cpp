@@ -2,28 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
-#include <map>
-#include <optional>
 
-#include "app/albedo_textures.h"
 #include "app/camera.h"
 #include "app/frame_block.h"
-#include "app/render_targets.h"
-#include "app/stopwatch.h"
-#include "app/views.h"
-#include "app/world_contents.h"
+#include "app/renderer_parts.h"
 #include "core/error.h"
-#include "gl/buffer.h"
 #include "gl/framebuffer.h"
-#include "passes/accumulate_pass.h"
 #include "passes/bricks.h"
-#include "passes/display_pass.h"
-#include "passes/emitters.h"
-#include "passes/filter_pass.h"
-#include "passes/pick_pass.h"
-#include "passes/temporal_pass.h"
-#include "passes/trace_pass.h"
 #include "shared/bindings.h"
 #include "shared/trace.h"
 
@@ -36,83 +21,8 @@ constexpr std::size_t moving_frames = 8;
 
 }  // namespace
 
-struct Renderer::Parts {
-    gl::Timers& timers;
-    WorldContents contents;
-    MaterialTable materials;
-    float metres_per_voxel;
-    std::uint32_t seed;
-
-    AlbedoTextures albedo = make_albedo_textures();
-    gl::Buffer frame_block{"frame block", sizeof(FrameBlock)};
-    gl::Buffer material_block{"materials", sizeof(make_material_block({}))};
-    gl::Buffer rejected{"rejected samples", sizeof(std::uint32_t)};
-
-    // A program is built when first used: a run pays for the passes it needs.
-    double compile_ms = 0;
-    std::map<TraceFeatures, TracePass> trace;
-    std::optional<EmittersPass> emitters;
-    std::optional<TemporalPass> temporal[2][2][2];  // [blend][moments][upsample]
-    std::optional<FilterPass> filter[2];         // [gaussian]
-    std::optional<AccumulatePass> accumulate;
-    std::optional<DisplayPass> display[2];  // [radiance only]
-    std::optional<PickPass> pick[2];        // [through water]
-
-    std::optional<RenderTargets> targets;
-    Views views;
-    FrameBlock block;   // of the last frame
-    FrameBlock block_before;
-    Settings settings;  // of the last frame
-    int current = 0;    // which of the two sets the last frame wrote
-    bool has_history = false;
-    std::uint32_t world_change = 0;   // Simulation::last_change() seen by the last frame of exact mode
-    std::uint64_t world_version = 0;  // seen by the last frame
-    std::deque<std::uint32_t> versions;  // likewise, low bits, of the last moving_frames frames; oldest first
-    std::uint64_t lamps_edited = 0;   // emissive_edits() seen by the last frame
-    std::uint64_t frame_index = 0;
-    std::uint64_t frames_kept = 0;
-    const gl::Texture* shown = nullptr;  // radiance of the last frame
-
-    Parts(const Scene& scene, gl::Timers& timers_)
-        : timers(timers_),
-          contents(scene),
-          materials(scene.materials),
-          metres_per_voxel(scene.metres_per_voxel),
-          seed(scene.seed) {}
-
-    template <typename Pass, typename... Arguments>
-    Pass& built(std::optional<Pass>& pass, Arguments... arguments) {
-        if (!pass) {
-            const Stopwatch watch;
-            pass.emplace(arguments...);
-            compile_ms += watch.ms();
-        }
-        return *pass;
-    }
-    TracePass& trace_pass(const TraceFeatures& features) {
-        const auto found = trace.find(features);
-        if (found != trace.end()) return found->second;
-        const Stopwatch watch;
-        TracePass& pass = trace.try_emplace(features, features).first->second;
-        compile_ms += watch.ms();
-        return pass;
-    }
-    TraceFeatures features(const Simulation& simulation) const;
-    void prepare_targets(const Settings& now, glm::ivec2 size_px);
-    void upload_frame(const Simulation& simulation, const Settings& now);
-    SurfaceBuffers surfaces(int set, const gl::Texture& radiance) const {
-        const FrameTargets& frame = targets->frames[set];
-        return {radiance, frame.surface};
-    }
-    void update_emitters(const Simulation& simulation);
-    TracePass::Inputs trace_inputs(const Simulation& simulation, const TraceFeatures& features);
-    bool retrace(const Simulation& simulation, TraceFeatures features);
-    const gl::Texture& accumulate_exact();
-    const gl::Texture& reproject_and_filter(const Simulation& simulation, bool retraced);
-    void show(const gl::Framebuffer& target, bool raw);
-};
-
-TraceFeatures Renderer::Parts::features(const Simulation& simulation) const {
+TraceFeatures Renderer::Parts::features(const Simulation& simulation, const Settings& of,
+                                        const FrameBlock& in) const {
     TraceFeatures features;
     for (std::size_t id = MATERIAL_AIR + 1; id < materials.size(); ++id) {
         if (!contents.may_hold(simulation, id)) continue;
@@ -125,13 +35,13 @@ TraceFeatures Renderer::Parts::features(const Simulation& simulation) const {
         const glm::vec3 shines = id == MATERIAL_WATER ? glm::vec3(0) : m.emission;  // as in lib/emitter_tree
         features.emitters |= std::max({shines.x, shines.y, shines.z}) > 0;
     }
-    features.skip = settings.traversal == Traversal::Distance;
-    features.sun = settings.light_sampling != LightSampling::None && block.sun_radiance.w > 0;
-    features.sky = settings.light_sampling == LightSampling::All;
-    features.emitters &= settings.light_sampling != LightSampling::None;
-    features.clear_sky = settings.sky_model == SkyModel::Preetham;
-    features.smooth_water = settings.smooth_water && contents.may_hold(simulation, MATERIAL_WATER);
-    features.count = counts_paths(settings.view);
+    features.skip = of.traversal == Traversal::Distance;
+    features.sun = of.light_sampling != LightSampling::None && in.sun_radiance.w > 0;
+    features.sky = of.light_sampling == LightSampling::All;
+    features.emitters &= of.light_sampling != LightSampling::None;
+    features.clear_sky = of.sky_model == SkyModel::Preetham;
+    features.smooth_water = of.smooth_water && contents.may_hold(simulation, MATERIAL_WATER);
+    features.count = counts_paths(of.view);
     return features;
 }
 
@@ -153,14 +63,10 @@ void Renderer::Parts::prepare_targets(const Settings& now, glm::ivec2 size_px) {
 void Renderer::Parts::upload_frame(const Simulation& simulation, const Settings& now) {
     const bool exact = now.history == History::Exact;
     if (difference(now, settings) >= SettingEffect::IMAGE) has_history = false;
-    const bool eye_moved = now.camera_position_vox != settings.camera_position_vox ||
-                           now.camera_yaw_deg != settings.camera_yaw_deg ||
-                           now.camera_pitch_deg != settings.camera_pitch_deg ||
-                           now.camera_fov_deg != settings.camera_fov_deg;
     // Exact mode keeps no frame of another view or another world.
     if (exact) {
         const std::uint32_t change = simulation.last_change();
-        if (eye_moved || change != world_change) has_history = false;
+        if (!same_eye(now, settings) || change != world_change) has_history = false;
         world_change = change;
     }
     // A lamp that was built or taken lights all at once; histories behind water would keep its image.
@@ -272,10 +178,37 @@ const gl::Texture& Renderer::Parts::reproject_and_filter(const Simulation& simul
     return *radiance;
 }
 
+void Renderer::Parts::show_picture(const gl::Framebuffer& target, bool raw) {
+    const Refinement& r = refinement;
+    DisplayPass::Inputs inputs{.radiance = *shown};
+    const bool refined = r.samples > 0;
+    if (refined) {
+        inputs.exact_mean = &r.targets->filtered[r.current];
+        inputs.exact_sum = &r.targets->sums[r.current].sum;
+        inputs.exact_samples = r.samples;
+    }
+    built(display[raw][refined], raw, refined).record(inputs, {.picture = target}, timers);
+}
+
+void Renderer::Parts::render_preset(const Simulation& simulation, const Settings& now, glm::ivec2 size_px) {
+    prepare_targets(now, size_px);
+    upload_frame(simulation, now);
+    current = 1 - current;
+    const TraceFeatures needed = features(simulation, settings, block);
+    if (needed.emitters) update_emitters(simulation);
+    views.prepare(settings, *targets, has_history);
+    const bool retraced = retrace(simulation, needed);
+    trace_pass(needed).record(trace_inputs(simulation, needed),
+                              {.target = views.trace_target(*targets, current)}, timers);
+    shown = settings.history == History::Exact ? &accumulate_exact() : &reproject_and_filter(simulation, retraced);
+    has_history = true;
+    frames_kept = std::min<std::uint64_t>(frames_kept + 1, FRAMES_KEPT_MAX);
+}
+
 // The last frame: its radiance, or the view of it that is asked for.
 void Renderer::Parts::show(const gl::Framebuffer& target, bool raw) {
     if (settings.view == ViewKind::Picture)
-        built(display[raw], raw).record({.radiance = *shown}, {.picture = target}, timers);
+        show_picture(target, raw);
     else
         views.show(*targets, current, raw, target, timers);
 }
@@ -287,27 +220,17 @@ Renderer::~Renderer() = default;
 const gl::Texture& Renderer::render(const Simulation& simulation, const Settings& settings,
                                     glm::ivec2 size_px) {
     Parts& p = *parts_;
-    p.prepare_targets(settings, size_px);
-    p.upload_frame(simulation, settings);
-    p.current = 1 - p.current;
     p.versions.resize(moving_frames, static_cast<std::uint32_t>(simulation.version()));
-
-    const TraceFeatures features = p.features(simulation);
-    if (features.emitters) p.update_emitters(simulation);
-    p.views.prepare(settings, *p.targets, p.has_history);
-    const bool retraced = p.retrace(simulation, features);
-    p.trace_pass(features).record(p.trace_inputs(simulation, features),
-                                  {.target = p.views.trace_target(*p.targets, p.current)}, p.timers);
-    p.shown =
-        settings.history == History::Exact ? &p.accumulate_exact() : &p.reproject_and_filter(simulation, retraced);
+    if (p.is_at_rest(simulation, settings, size_px))
+        p.refine(simulation, settings);
+    else
+        p.render_preset(simulation, settings, size_px);
     p.show(p.targets->picture_target, false);
 
-    p.has_history = true;
     p.world_version = simulation.version();
     p.versions.pop_front();
     p.versions.push_back(static_cast<std::uint32_t>(p.world_version));
     ++p.frame_index;
-    p.frames_kept = std::min<std::uint64_t>(p.frames_kept + 1, FRAMES_KEPT_MAX);
     return p.targets->picture;
 }
 
@@ -382,6 +305,7 @@ ImageRgb32f Renderer::read_radiance() const {
 }
 
 std::uint64_t Renderer::samples() const {
+    if (parts_->refinement.samples > 0) return parts_->refinement.samples;
     const Settings& s = parts_->settings;
     std::uint64_t frames = 1;
     if (s.history == History::Exact) frames = parts_->frames_kept;
@@ -415,7 +339,7 @@ std::vector<std::string> Renderer::poll_reload() {
         for (auto& pair : parts_->temporal[i])
             for (auto& pass : pair) poll(pass);
         poll(parts_->filter[i]);
-        poll(parts_->display[i]);
+        for (auto& pass : parts_->display[i]) poll(pass);
         poll(parts_->pick[i]);
     }
     poll(parts_->accumulate);

@@ -52,6 +52,7 @@ constexpr PresetRow presets[] = {{"max_bounces", {"8", "16", "24", "64", "1024"}
                                  {"history_alpha", {"0.1", "0.1", "0.1", "0.1", "0.1"}},
                                  {"history_cap", {"48", "32", "48", "256", "48"}},
                                  {"retrace_changes", {"false", "true", "true", "true", "false"}},
+                                 {"refine_at_rest", {"false", "true", "true", "true", "false"}},
                                  {"filter", {"gaussian", "edge_aware", "edge_aware", "edge_aware", "none"}},
                                  {"filter_passes", {"1", "1", "1", "1", "1"}}};
 
