@@ -84,6 +84,7 @@ struct Traced {
     ivec2 taps[4];   // around it
     vec4 weights;    // of their light; all of it where one of them was traced for this pixel
     bool own;        // that is so
+    bool met;        // some of them show its surface
 };
 
 #ifdef HISTORY_UPSAMPLE
@@ -91,8 +92,9 @@ struct Traced {
 
 // History of so many samples is worth more than this frame's light of neighbours.
 const float SAMPLES_WITHOUT_NEIGHBOURS = 4.0;
-// What the light of neighbours counts for, in samples.
+// What the light of neighbours counts for, in samples: of the same surface, and of others where there is none.
 const float NEIGHBOURS_WORTH = 0.25;
+const float STRANGERS_WORTH = 1e-4;
 
 Traced traced_around(ivec2 at) {
     ivec2 last = frame.size_px.xy - 1;
@@ -101,7 +103,7 @@ Traced traced_around(ivec2 at) {
     ivec2 home = min(ivec2((vec2(at) + 0.5) / cell), last);
     ivec2 base = home - ivec2(greaterThan(shown_pixel(home), at));
     Traced traced;
-    traced.own = false;
+    traced.met = true;
     vec4 seen[4];
     vec4 own = vec4(0.0);
     for (int k = 0; k < 4; ++k) {
@@ -151,7 +153,8 @@ Traced traced_around(ivec2 at) {
         n = surface_normal(traced.surface.w);
         tolerance = plane_tolerance(traced.surface, eye);
         for (int k = 0; k < 4; ++k)
-            if (!lies_on(traced.surface, seen[k], n, tolerance)) traced.weights[k] = 1e-9;
+            if (!lies_on(traced.surface, seen[k], n, tolerance)) traced.weights[k] *= 1e-6;
+        traced.met = dot(traced.weights, vec4(1.0)) > 1e-4;
     }
     traced.weights /= dot(traced.weights, vec4(1.0));
     return traced;
@@ -164,7 +167,7 @@ vec3 light_of(Traced traced) {
 }
 #else
 Traced traced_around(ivec2 at) {
-    return Traced(texelFetch(surface, at, 0), ivec2[4](at, at, at, at), vec4(1.0, 0.0, 0.0, 0.0), true);
+    return Traced(texelFetch(surface, at, 0), ivec2[4](at, at, at, at), vec4(1.0, 0.0, 0.0, 0.0), true, true);
 }
 vec3 light_of(Traced traced) { return texelFetch(radiance, traced.taps[0], 0).rgb; }
 #define SAMPLES_A_FRAME 1.0
@@ -224,7 +227,7 @@ void main() {
     }
     float worth = 1.0;
 #ifdef HISTORY_UPSAMPLE
-    if (!traced.own) worth = count < SAMPLES_WITHOUT_NEIGHBOURS ? NEIGHBOURS_WORTH : 0.0;
+    if (!traced.own) worth = count < SAMPLES_WITHOUT_NEIGHBOURS ? (traced.met ? NEIGHBOURS_WORTH : STRANGERS_WORTH) : 0.0;
     out_surface = here;
 #endif
     vec3 value = history.rgb;

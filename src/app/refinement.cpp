@@ -28,11 +28,7 @@ bool Renderer::Parts::is_at_rest(const Simulation& simulation, const Settings& n
     bool rests = now.refine_at_rest && averages && now.view == ViewKind::Picture && has_history && targets &&
                  targets->shown_px == size_px && same_eye(now, settings) &&
                  difference(now, settings) < SettingEffect::IMAGE;
-    if (rests && simulation.version() != world_version) {
-        const std::uint32_t change = simulation.last_change();
-        rests = change == r.change;
-        r.change = change;
-    }
+    rests = rests && !world_changed(simulation);
     r.frames_at_rest = rests ? r.frames_at_rest + 1 : 0;
     const auto cap = static_cast<std::uint32_t>(now.history_cap);
     const bool ready = r.frames_at_rest >= (now.history == History::Count ? std::min(preset_frames, cap) : preset_frames);

@@ -116,13 +116,18 @@ TracePass::Inputs Renderer::Parts::trace_inputs(const Simulation& simulation, co
             .still_since = versions.front()};
 }
 
+bool Renderer::Parts::world_changed(const Simulation& simulation) const {
+    if (simulation.version() == world_version) return false;
+    // Versions wrap: compare by signed difference.
+    const std::uint32_t since = simulation.last_change() - static_cast<std::uint32_t>(world_version);
+    return since != 0 && since <= INT32_MAX;
+}
+
 // Some of the last frame's paths, with its eye and its random numbers, in the world as it is now. False where the
 // world has not changed or nothing asks for it.
 bool Renderer::Parts::retrace(const Simulation& simulation, TraceFeatures features) {
     if (settings.history != History::Count || !settings.retrace_changes || !has_history) return false;
-    if (simulation.version() == world_version) return false;
-    const std::uint32_t since = simulation.last_change() - static_cast<std::uint32_t>(world_version);
-    if (since == 0 || since > INT32_MAX) return false;
+    if (!world_changed(simulation)) return false;
     features.count = false;
     frame_block.upload(std::span(&block_before, 1));
     TracePass::Inputs inputs = trace_inputs(simulation, features);

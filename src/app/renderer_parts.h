@@ -25,7 +25,6 @@ namespace tarn {
 // The exact mean that a picture at rest glides into.
 struct Refinement {
     std::uint32_t frames_at_rest = 0;  // eye, settings and world as they were
-    std::uint32_t change = 0;          // Simulation::last_change() seen by the last frame
     std::optional<RenderTargets> targets;  // exact, of the shown size; while refining
     Settings settings;                     // exact
     FrameBlock block;
@@ -105,6 +104,8 @@ struct Renderer::Parts {
     }
     void update_emitters(const Simulation& simulation);
     TracePass::Inputs trace_inputs(const Simulation& simulation, const TraceFeatures& features);
+    // Since the last frame. May wait for the GPU.
+    bool world_changed(const Simulation& simulation) const;
     bool retrace(const Simulation& simulation, TraceFeatures features);
     const gl::Texture& accumulate_exact();
     const gl::Texture& reproject_and_filter(const Simulation& simulation, bool retraced);
