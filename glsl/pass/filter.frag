@@ -17,6 +17,8 @@ const float KERNEL[3] = float[3](6.0 / 16.0, 4.0 / 16.0, 1.0 / 16.0);  // binomi
 // With fewer frames the brightness of a pixel behind water says nothing yet.
 const float FRAMES_OF_NOISE = 12.0;
 
+const float WIDE_FRAMES = 8.0;
+
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     ivec2 last = textureSize(radiance, 0) - 1;
@@ -36,6 +38,12 @@ void main() {
     vec3 n = surface_normal(here.w);
     // Where frames have been averaged there is less noise to trade for sharpness.
     float strength = min(1.0, 6.0 / center.a);
+    // Wider passes are for pixels that have next to no history.
+    if (max(step_px.x, step_px.y) > 1) strength = max(0.0, 1.0 - center.a / WIDE_FRAMES);
+    if (strength == 0.0) {
+        out_radiance = center;
+        return;
+    }
     bool clear = transmits(surface_material(here.w));
     float center_luminance = luminance(center.rgb);
     float tolerance = plane_tolerance(here, frame.camera_position_vox.xyz);
