@@ -28,7 +28,8 @@ void set_sun(FrameBlock& block, const Settings& s) {
         glm::vec4(disc ? glm::vec3(irradiance / projected) : glm::vec3(0), exists ? 1.0f : 0.0f);
 }
 
-// Of the shown pixel for which a traced one stands in this frame: all places in turn, neighbours in time far apart.
+// Of the shown pixel for which a traced one stands in this frame: all places in turn, neighbours in time far
+// apart.
 glm::vec2 place_in_cell(const FrameInputs& in) {
     constexpr int most = 4;
     const int n = std::min((in.shown_px.x + in.traced_px.x - 1) / in.traced_px.x, most);

@@ -1,5 +1,5 @@
-// A picture at rest: frames of exact mode are added up beside what the preset made last, and shown with as much weight as
-// they have earned.
+// A picture at rest: frames of exact mode are added up beside what the preset made last, and shown with as
+// much weight as they have earned.
 #include <algorithm>
 
 #include "app/frame_block.h"
@@ -31,7 +31,8 @@ bool Renderer::Parts::is_at_rest(const Simulation& simulation, const Settings& n
     rests = rests && !world_changed(simulation);
     r.frames_at_rest = rests ? r.frames_at_rest + 1 : 0;
     const auto cap = static_cast<std::uint32_t>(now.history_cap);
-    const bool ready = r.frames_at_rest >= (now.history == History::Count ? std::min(preset_frames, cap) : preset_frames);
+    const bool ready =
+        r.frames_at_rest >= (now.history == History::Count ? std::min(preset_frames, cap) : preset_frames);
     if (!ready) {
         r.targets.reset();
         r.samples = 0;
@@ -65,7 +66,8 @@ void Renderer::Parts::refine(const Simulation& simulation, const Settings& now) 
     const int first_row = size.y * r.band / bands;
     glEnable(GL_SCISSOR_TEST);
     glScissor(0, first_row, size.x, size.y * (r.band + 1) / bands - first_row);
-    trace_pass(needed).record(trace_inputs(simulation, needed), {.target = r.targets->trace_target[0]}, timers);
+    trace_pass(needed).record(trace_inputs(simulation, needed), {.target = r.targets->trace_target[0]},
+                              timers);
     glDisable(GL_SCISSOR_TEST);
     r.band = (r.band + 1) % bands;
     if (r.band != 0) return;

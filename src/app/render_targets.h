@@ -61,16 +61,15 @@ struct RenderTargets {
                 gl::Texture({.label = "radiance", .format = GL_RGBA32F, .size = {traced, 0}, .linear = true});
             frames[i] = FrameTargets(kept);
             trace_target[i] = gl::Framebuffer("trace", {&radiance[i], &traced_surface_of(i)});
-            history_target[i] =
-                upsampled ? gl::Framebuffer("history", {&frames[i].history, &frames[i].surface})
-                          : gl::Framebuffer("history", {&frames[i].history});
+            history_target[i] = upsampled
+                                    ? gl::Framebuffer("history", {&frames[i].history, &frames[i].surface})
+                                    : gl::Framebuffer("history", {&frames[i].history});
             filter_target[i] = gl::Framebuffer("filter", {&filtered[i]});
             if (exact) sums[i] = Sums(traced);
         }
         const int stride = static_cast<int>(RETRACE_STRIDE);
-        retraced = gl::Texture({.label = "retraced",
-                                .format = GL_RGBA32F,
-                                .size = {(traced + stride - 1) / stride, 0}});
+        retraced = gl::Texture(
+            {.label = "retraced", .format = GL_RGBA32F, .size = {(traced + stride - 1) / stride, 0}});
         retrace_target = gl::Framebuffer("retrace", {&retraced});
         if (!exact) return;
         for (int i = 0; i < 2; ++i)

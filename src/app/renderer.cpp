@@ -123,8 +123,8 @@ bool Renderer::Parts::world_changed(const Simulation& simulation) const {
     return since != 0 && since <= INT32_MAX;
 }
 
-// Some of the last frame's paths, with its eye and its random numbers, in the world as it is now. False where the
-// world has not changed or nothing asks for it.
+// Some of the last frame's paths, with its eye and its random numbers, in the world as it is now. False where
+// the world has not changed or nothing asks for it.
 bool Renderer::Parts::retrace(const Simulation& simulation, TraceFeatures features) {
     if (settings.history != History::Count || !settings.retrace_changes || !has_history) return false;
     if (!world_changed(simulation)) return false;
@@ -205,7 +205,8 @@ void Renderer::Parts::render_preset(const Simulation& simulation, const Settings
     const bool retraced = retrace(simulation, needed);
     trace_pass(needed).record(trace_inputs(simulation, needed),
                               {.target = views.trace_target(*targets, current)}, timers);
-    shown = settings.history == History::Exact ? &accumulate_exact() : &reproject_and_filter(simulation, retraced);
+    shown = settings.history == History::Exact ? &accumulate_exact()
+                                               : &reproject_and_filter(simulation, retraced);
     has_history = true;
     frames_kept = std::min<std::uint64_t>(frames_kept + 1, FRAMES_KEPT_MAX);
 }

@@ -1,4 +1,5 @@
-// What the renderer is made of, for its own source files: renderer.cpp (the pass order), refinement.cpp (at rest).
+// What the renderer is made of, for its own source files: renderer.cpp (the pass order), refinement.cpp (at
+// rest).
 #pragma once
 #include <deque>
 #include <map>
@@ -24,7 +25,7 @@ namespace tarn {
 
 // The exact mean that a picture at rest glides into.
 struct Refinement {
-    std::uint32_t frames_at_rest = 0;  // eye, settings and world as they were
+    std::uint32_t frames_at_rest = 0;      // eye, settings and world as they were
     std::optional<RenderTargets> targets;  // exact, of the shown size; while refining
     Settings settings;                     // exact
     FrameBlock block;
@@ -50,22 +51,22 @@ struct Renderer::Parts {
     std::map<TraceFeatures, TracePass> trace;
     std::optional<EmittersPass> emitters;
     std::optional<TemporalPass> temporal[2][2][2];  // [blend][moments][upsample]
-    std::optional<FilterPass> filter[2];         // [gaussian]
+    std::optional<FilterPass> filter[2];            // [gaussian]
     std::optional<AccumulatePass> accumulate;
     std::optional<DisplayPass> display[2][2];  // [radiance only][refined]
-    std::optional<PickPass> pick[2];        // [through water]
+    std::optional<PickPass> pick[2];           // [through water]
 
     std::optional<RenderTargets> targets;
     Views views;
-    FrameBlock block;   // of the last frame
+    FrameBlock block;  // of the last frame
     FrameBlock block_before;
     Settings settings;  // of the last frame
     int current = 0;    // which of the two sets the last frame wrote
     bool has_history = false;
-    std::uint32_t world_change = 0;   // Simulation::last_change() seen by the last frame of exact mode
-    std::uint64_t world_version = 0;  // seen by the last frame
+    std::uint32_t world_change = 0;      // Simulation::last_change() seen by the last frame of exact mode
+    std::uint64_t world_version = 0;     // seen by the last frame
     std::deque<std::uint32_t> versions;  // likewise, low bits, of the last moving_frames frames; oldest first
-    std::uint64_t lamps_edited = 0;   // emissive_edits() seen by the last frame
+    std::uint64_t lamps_edited = 0;      // emissive_edits() seen by the last frame
     std::uint64_t frame_index = 0;
     std::uint64_t frames_kept = 0;
     const gl::Texture* shown = nullptr;  // radiance of the last frame that the preset made

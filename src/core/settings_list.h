@@ -61,10 +61,11 @@
          "Weight of the new frame where history is blend.")                                                  \
     INT(history_cap, 48, 1, 4096, IMAGE_FILTER, IMAGE, "Most frames kept where history is count.")           \
     BOOL(retrace_changes, true, IMAGE_FILTER, IMAGE,                                                         \
-         "After a change of the world trace a ninth of the last frame's paths again, where history is count, " \
+         "After a change of the world trace a ninth of the last frame's paths again, where history is "      \
+         "count, "                                                                                           \
          "and keep less of it where their light changed: shadows and images in water follow.")               \
     BOOL(refine_at_rest, true, IMAGE_FILTER, IMAGE,                                                          \
-         "While eye and world rest, add frames of quality exact and let the picture glide into their mean.")   \
+         "While eye and world rest, add frames of quality exact and let the picture glide into their mean.") \
     CHOICE(Filter, filter, EdgeAware, IMAGE_FILTER, TARGETS,                                                 \
            "Blur against noise: none, gaussian, or edge_aware (stays within one surface).")                  \
     INT(filter_passes, 1, 1, 5, IMAGE_FILTER, IMAGE,                                                         \

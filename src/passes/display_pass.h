@@ -22,8 +22,8 @@ class DisplayPass {
         const gl::Framebuffer& picture;
     };
 
-    // radiance_only: the target keeps linear radiance at the shown size; otherwise tone-mapped sRGB. refined: an
-    // exact mean is mixed in.
+    // radiance_only: the target keeps linear radiance at the shown size; otherwise tone-mapped sRGB. refined:
+    // an exact mean is mixed in.
     DisplayPass(bool radiance_only, bool refined);
     void record(const Inputs& inputs, const Outputs& outputs, gl::Timers& timers) const;
     gl::Program& program() { return program_; }

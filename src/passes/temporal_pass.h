@@ -19,14 +19,14 @@ struct SurfaceBuffers {
 class TemporalPass {
   public:
     struct Inputs {
-        SurfaceBuffers current;  // as traced
+        SurfaceBuffers current;   // as traced
         SurfaceBuffers previous;  // radiance: history, alpha: frames kept
         const gl::Texture& cells;
         const gl::Texture& brick_changed;
         std::uint32_t previous_version;  // of the world, when the previous frame was made
         const gl::Buffer& rejected;
-        // The previous frame's light as traced, and some of its paths in this world; null where none was traced
-        // again. Not with blend.
+        // The previous frame's light as traced, and some of its paths in this world; null where none was
+        // traced again. Not with blend.
         const gl::Texture* traced_before = nullptr;
         const gl::Texture* retraced = nullptr;
         const gl::Texture* previous_moments = nullptr;  // with moments; null where the last frame kept none
