@@ -1,10 +1,13 @@
-// Telling that a cell changed: stamps its brick for the picture and for the sleep of the water, and puts a brick
-// that was asleep on the list of active ones. src/passes/activity.h owns the buffers.
+// Telling that a cell changed: stamps its brick for the picture and for the sleep of the water, logs it for the
+// structures that hang on the cells, and puts a brick that was asleep on the list of active ones.
+// src/passes/activity.h owns the buffers.
 #include "shared/bindings.h"
 #include "shared/water.h"
+#include "lib/changes.glsl"
+#include "lib/matter.glsl"
 #include "lib/work_list.glsl"
 
-layout(r32ui, binding = IMAGE_BRICK_CHANGED) writeonly uniform uimage3D brick_changed;
+layout(r32ui, binding = IMAGE_BRICK_CHANGED) coherent uniform uimage3D brick_changed;
 
 // The tick in which a cell of each brick last changed.
 layout(std430, binding = STORAGE_CHANGED_TICK) coherent buffer ChangedTick { uint changed_tick[]; };
@@ -37,11 +40,19 @@ void mark_active(uint brick) {
     }
 }
 
-void mark_brick_active(ivec3 brick) {
-    mark_active(uint(brick.x + size_bricks.x * (brick.y + size_bricks.y * brick.z)));
+uint index_of_brick(ivec3 brick) { return uint(brick.x + size_bricks.x * (brick.y + size_bricks.y * brick.z)); }
+
+void mark_brick_active(ivec3 brick) { mark_active(index_of_brick(brick)); }
+
+void mark_brick_changed(ivec3 brick) {
+    for (bool unstamped = imageLoad(brick_changed, brick).r != version; unstamped; unstamped = false)
+        for (bool first = imageAtomicExchange(brick_changed, brick, version) != version; first; first = false) {
+            append_change(index_of_brick(brick));
+            int word = matter_word(brick, size_bricks);
+            atomicOr(matter[word].moves, 1u << (brick.x & 31));
+            atomicOr(matter[word].room, 1u << (brick.x & 31));
+        }
+    mark_brick_active(brick);
 }
 
-void mark_changed(ivec3 cell) {
-    imageStore(brick_changed, cell / BRICK_SIDE, uvec4(version));
-    mark_brick_active(cell / BRICK_SIDE);
-}
+void mark_changed(ivec3 cell) { mark_brick_changed(cell / BRICK_SIDE); }

@@ -11,9 +11,7 @@ const float COS_GRAZING = 1e-12;
 // cosine-weighted mean Eavg: g. Axes: sqrt(cos), or that of metals for eta >= 1; roughness; x of ALBEDO_ETA_RANGE
 // (src/reference/albedo.h makes it).
 layout(binding = BINDING_ALBEDO_TABLE) uniform sampler3D albedo_table;
-#endif
 
-#ifdef TRACE_METAL
 // Ess(cos, alpha): the part that a GGX interface of reflectance 1 reflects after one scattering. Axes: angle_axis(),
 // roughness.
 layout(binding = BINDING_METAL_ALBEDO_TABLE) uniform sampler2D metal_albedo_table;
@@ -46,7 +44,7 @@ Surface surface_of(Material m, uint id, uint medium, float medium_ior) {
     s.transmissive = transmits(id);
     s.base = m.base_roughness.rgb;
     s.metallic = 0.0;
-#ifdef TRACE_METAL
+#ifdef TRACE_COATED
     s.metallic = m.emission_metallic.w;
 #endif
     s.coated = m.absorption_ior.w != 1.0;
@@ -92,7 +90,7 @@ vec2 albedo_lookup(float cos_w, float alpha, float eta) {
     return vec2(clamp(albedo.r, 0.0, 1.0), albedo.g);
 }
 
-#ifdef TRACE_METAL
+#ifdef TRACE_COATED
 float metal_albedo_lookup(float cos_w, float alpha) {
     vec2 size = vec2(textureSize(metal_albedo_table, 0));
     vec2 at = vec2(angle_axis(clamp(cos_w, 0.0, 1.0), alpha), sqrt(alpha));
@@ -112,7 +110,7 @@ Coat coat_towards(Surface s, float cos_o) {
     Coat coat;
     coat.albedo = s.coated ? albedo_lookup(cos_o, s.alpha, s.eta) : vec2(0.0);
     coat.metal_gain = vec3(1.0);
-#ifdef TRACE_METAL
+#ifdef TRACE_COATED
     // Turquin 2019. Of wo only: the furnace is kept, reciprocity is not.
     coat.metal_gain += s.base * (1.0 / metal_albedo_lookup(cos_o, s.alpha) - 1.0);
 #endif

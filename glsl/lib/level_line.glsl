@@ -1,6 +1,6 @@
 // Levelling of one line of cells in shared memory: what the level and pressure tiers do along x, z and the
-// diagonals. Needs an array `grid` of GRID_CELLS ints: what a cell holds (lib/water.glsl) and these flags, which
-// levelling keeps.
+// diagonals. Needs an array `grid` of GRID_CELLS ints: what a cell holds (lib/water.glsl), these flags, and what it
+// held in the beginning, which levelling keeps.
 #include "shared/hash.h"
 #include "shared/water.h"
 #include "lib/water.glsl"
@@ -10,6 +10,8 @@ const int STANDS = 128;    // something holds what is in it: solid, sand, or ful
 const int ON_WATER = 256;  // and that is water
 const int PRESSED = 512;   // by the head of confined water
 const int CUT = 1024;      // no way to the next cell of a diagonal line
+const int FLAGS = STANDS | ON_WATER | PRESSED | CUT;
+const int BEFORE_SHIFT = 16;
 
 shared int grid[GRID_CELLS];
 
@@ -26,9 +28,16 @@ struct Line {
 };
 
 int content_in(int cell) { return cell & CONTENT; }
+int content_before(int cell) { return cell >> BEFORE_SHIFT; }
 bool takes_part(int cell) { return (cell & STANDS) != 0 && is_open(content_in(cell)); }
 
-void set_content(int at, int content) { grid[at] = (grid[at] & ~CONTENT) | content; }
+// Whether this invocation may have changed what a cell holds.
+bool changed_here = false;
+
+void set_content(int at, int content) {
+    grid[at] = (grid[at] & ~CONTENT) | content;
+    changed_here = true;
+}
 
 struct Extent {
     int total, most, least;

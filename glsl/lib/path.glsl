@@ -1,8 +1,9 @@
 // The path tracer: one path from the eye, its light, and the first surface it meets. Options, so that what a scene
 // does not contain costs nothing: TRACE_CLEAR (water or glass), TRACE_ROUGH (some of it rough), TRACE_COATED (opaque
-// materials with an interface), TRACE_METAL (metals among them; needs TRACE_COATED), TRACE_SUN, TRACE_SKY and
+// materials with an interface, metals), TRACE_SUN, TRACE_SKY and
 // TRACE_EMITTERS (light sampling), TRACE_SMOOTH_WATER (water's levels shaded as one surface; needs TRACE_CLEAR),
-// TRACE_PREETHAM (the sky), TRACE_COUNT (bounces and steps, for views).
+// TRACE_COUNT (bounces and steps, for views). What a program can do beyond what its scene has changes no bit of the
+// picture: nothing there draws random numbers.
 #include "lib/light_sampling.glsl"
 
 #ifdef TRACE_COUNT
@@ -38,6 +39,7 @@ vec3 trace_path(vec3 eye_vox, vec3 dir, out FirstSurface first) {
     float pdf_last = 0.0;      // of the last scattering
     float sky_pdf_last = 0.0;  // with which sky sampling would have made the same direction; 0: it could not
 #ifdef TRACE_EMITTERS
+    bool has_emitters = any_emitter();
     int emitter_state = EMITTER_BY_CHANCE;
     Receiver receiver = Receiver(vec3(0.0), 0, 1.0);  // the last vertex that scattered
     float above = NO_SURFACE;                         // it, where it lies under water
@@ -136,7 +138,8 @@ vec3 trace_path(vec3 eye_vox, vec3 dir, out FirstSurface first) {
 #ifdef TRACE_CLEAR
         under_water = sunward.medium == MATERIAL_WATER && through_smooth_water;
 #endif
-        bool sun_sampled = !delta && (sunward.medium == MATERIAL_AIR || under_water);
+        bool sun_sampled =
+            frame.sun_radiance.w > 0.0 && !delta && (sunward.medium == MATERIAL_AIR || under_water);
         if (sun_sampled) light += limited(throughput * sampled_sun(v, sunward, across, under_water), bounce + 1);
 #endif
 #ifdef TRACE_SKY
@@ -146,10 +149,10 @@ vec3 trace_path(vec3 eye_vox, vec3 dir, out FirstSurface first) {
         bool across_water = false;
 #ifdef TRACE_CLEAR
         across_water = through_smooth_water;
-        for (bool once = !delta && across_water; once; once = false)
+        for (bool once = has_emitters && !delta && across_water; once; once = false)
             above = ray.medium == MATERIAL_WATER ? surface_above(v.start) : NO_SURFACE;
 #endif
-        int images = delta ? 0 : across_water && above != NO_SURFACE ? 2 : 1;
+        int images = delta || !has_emitters ? 0 : across_water && above != NO_SURFACE ? 2 : 1;
         for (int image = 0; image < images; ++image)
             light += limited(throughput * sampled_emitter(v, across_water, above, image == 1), bounce + 1);
 #endif

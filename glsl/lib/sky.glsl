@@ -1,11 +1,11 @@
 // Light from beyond the world: one function for every miss.
 #include "shared/frame.h"
 #include "lib/math.glsl"
+#include "lib/options.glsl"
 
-#ifdef TRACE_PREETHAM
 // The clear sky of Preetham, Shirley & Smits 1999 (src/app/clear_sky.h). Below the horizon it goes on as on it; the
 // angle to the sun grows to a right angle straight down, so that no point sticks out.
-vec3 sky_radiance(vec3 dir) {
+vec3 clear_sky_radiance(vec3 dir) {
     vec3 d = vec3(dir.x, max(dir.y, 0.0), dir.z);
     vec3 sun = frame.sky_sun_dir.xyz;
     float gamma = 2.0 * atan(length(d - sun), length(d + sun));
@@ -18,9 +18,12 @@ vec3 sky_radiance(vec3 dir) {
     const mat3 to_srgb = mat3(3.2406, -0.9689, 0.0557, -1.5372, 1.8758, -0.2040, -0.4986, 0.0415, 1.0570);
     return max(to_srgb * xyz, vec3(0.0)) + frame.sky_night.rgb;
 }
-#else
-vec3 sky_radiance(vec3 dir) { return mix(frame.sky_horizon.rgb, frame.sky_zenith.rgb, max(0.0, dir.y)); }
-#endif
+
+// Asked for at run time: compiled in or out, it makes no difference that can be measured.
+vec3 sky_radiance(vec3 dir) {
+    if (option(OPTION_PREETHAM_SKY)) return clear_sky_radiance(dir);
+    return mix(frame.sky_horizon.rgb, frame.sky_zenith.rgb, max(0.0, dir.y));
+}
 
 // By the squared distance of unit vectors, 2 (1 - cos): a cosine near 1 has no digits left for a small disc.
 bool in_sun_disc(vec3 dir) {

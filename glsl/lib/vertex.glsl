@@ -4,7 +4,6 @@
 #include "lib/bsdf.glsl"
 #include "lib/traversal.glsl"
 
-bool option(int bit) { return (frame.trace_options.w & bit) != 0; }
 
 // World axes to the local frame whose z is the axis of the normal, and back; side: the normal's sign.
 vec3 to_local(vec3 v, int axis, float side) {

@@ -1,5 +1,5 @@
 // The active bricks of the tick that begins: those that changed lately stay on the list, and the blocks of one or
-// two grids that touch them or a neighbour are put on the lists of blocks to run. An invocation a brick.
+// two grids that touch them or a neighbour are listed as awake. An invocation a brick.
 #include "lib/activity.glsl"
 
 layout(local_size_x = ACTIVE_PER_GROUP) in;
@@ -8,18 +8,19 @@ layout(std430, binding = STORAGE_ACTIVE) readonly buffer Active {
     WorkHeader awake;
     uint awake_bricks[];
 };
-// 1 for a block on its list; those of the second grid follow those of the first.
+// `mark` for a block on its list; those of the second grid follow those of the first.
 layout(std430, binding = STORAGE_BLOCK_MARKS) coherent buffer BlockMarks { uint block_marks[]; };
-layout(std430, binding = STORAGE_BLOCKS) buffer Blocks {
-    WorkHeader blocks;
-    uint block_ids[];
+layout(std430, binding = STORAGE_AWAKE_BLOCKS) buffer AwakeBlocks {
+    WorkHeader awake_blocks;
+    uint awake_block_ids[];
 };
-layout(std430, binding = STORAGE_BLOCKS_WIDE) buffer WideBlocks {
-    WorkHeader wide_blocks;
-    uint wide_block_ids[];
+layout(std430, binding = STORAGE_AWAKE_BLOCKS_WIDE) buffer AwakeWideBlocks {
+    WorkHeader awake_wide_blocks;
+    uint awake_wide_block_ids[];
 };
 
 uniform ivec3 size_vox;
+uniform uint mark;  // another in every tick, so that nothing needs clearing
 uniform int grids;
 uniform ivec3 block_vox[2];
 uniform ivec3 offset_vox[2];
@@ -28,21 +29,23 @@ uniform ivec3 count_blocks[2];
 // Loops that run at most once: llvmpipe runs the body of a branch, atomics and all, for lanes that do not take it.
 void mark_block(int grid, ivec3 block) {
     uint id = uint(block.x + count_blocks[grid].x * (block.y + count_blocks[grid].y * block.z));
-    uint mark = id;
-    if (grid == 1) mark += uint(count_blocks[0].x * count_blocks[0].y * count_blocks[0].z);
-    for (bool unmarked = block_marks[mark] == 0u; unmarked; unmarked = false) {
-        bool first = atomicExchange(block_marks[mark], 1u) == 0u;
+    uint at = id;
+    if (grid == 1) at += uint(count_blocks[0].x * count_blocks[0].y * count_blocks[0].z);
+    for (bool unmarked = block_marks[at] != mark; unmarked; unmarked = false) {
+        bool first = atomicExchange(block_marks[at], mark) != mark;
         for (bool tall = first && grid == 0; tall; tall = false) {
-            uint slot = atomicAdd(blocks.count, 1u);
-            block_ids[slot] = id;
-            atomicMax(blocks.groups_x, min(slot + 1u, WORK_GROUPS_PER_ROW));
-            if (slot % WORK_GROUPS_PER_ROW == 0u) atomicAdd(blocks.groups_y, 1u);
+            uint slot = atomicAdd(awake_blocks.count, 1u);
+            awake_block_ids[slot] = id;
+            uint group = slot / ACTIVE_PER_GROUP;
+            atomicMax(awake_blocks.groups_x, min(group + 1u, WORK_GROUPS_PER_ROW));
+            if (slot % (ACTIVE_PER_GROUP * WORK_GROUPS_PER_ROW) == 0u) atomicAdd(awake_blocks.groups_y, 1u);
         }
         for (bool wide = first && grid == 1; wide; wide = false) {
-            uint slot = atomicAdd(wide_blocks.count, 1u);
-            wide_block_ids[slot] = id;
-            atomicMax(wide_blocks.groups_x, min(slot + 1u, WORK_GROUPS_PER_ROW));
-            if (slot % WORK_GROUPS_PER_ROW == 0u) atomicAdd(wide_blocks.groups_y, 1u);
+            uint slot = atomicAdd(awake_wide_blocks.count, 1u);
+            awake_wide_block_ids[slot] = id;
+            uint group = slot / ACTIVE_PER_GROUP;
+            atomicMax(awake_wide_blocks.groups_x, min(group + 1u, WORK_GROUPS_PER_ROW));
+            if (slot % (ACTIVE_PER_GROUP * WORK_GROUPS_PER_ROW) == 0u) atomicAdd(awake_wide_blocks.groups_y, 1u);
         }
     }
 }

@@ -1,40 +1,25 @@
 // The leaves of the tree of emissive voxels: what the bricks that changed, or touch one that did, hold. An invocation a
-// brick. Where a leaf changed, the levels above are dispatched anew.
+// changed brick. Where a leaf changed, the levels above are dispatched anew.
 #define EMITTER_ACCESS
 #include "lib/emitter_tree.glsl"
+#include "lib/new_changes.glsl"
 
-layout(local_size_x = 8, local_size_y = 8, local_size_z = 1) in;
+layout(local_size_x = CHANGES_PER_GROUP) in;
 
 layout(binding = BINDING_CELLS) uniform usampler3D cells;
-layout(binding = BINDING_BRICK_CHANGED) uniform usampler3D brick_changed;
 
 // Indirect arguments of emitter_tree.comp, by level: 0 groups until something changed.
 layout(std430, binding = STORAGE_EMITTER_GROUPS) writeonly buffer EmitterGroups {
     uint emitter_groups[3 * EMITTER_LEVELS_MAX];
 };
 
-uniform uint seen_version;  // bricks stamped since are looked at anew
-uniform int everything;     // 1: all are
-
-bool changed(ivec3 brick) {
-    bool inside = is_emitter_node(brick, 0);
-    // Stamps wrap: compare by signed difference.
-    return inside && int(texelFetch(brick_changed, brick, 0).r - seen_version) > 0;
-}
-
 bool lets_light_out(ivec3 cell) {
     bool inside = all(lessThan(uvec3(cell), uvec3(textureSize(cells, 0))));
     return !inside || transmits(material_of(texelFetch(cells, cell, 0).r));
 }
 
-void main() {
-    ivec3 brick = ivec3(gl_GlobalInvocationID);
-    if (!is_emitter_node(brick, 0)) return;
-    bool stale = everything != 0 || changed(brick);
-    for (int axis = 0; axis < 3; ++axis) {
-        ivec3 step = ivec3(axis == 0, axis == 1, axis == 2);
-        stale = stale || changed(brick - step) || changed(brick + step);
-    }
+void look_at(ivec3 brick) {
+    bool stale = is_emitter_node(brick, 0);
     ivec3 first = brick * BRICK_SIDE;
     ivec3 size = textureSize(cells, 0);
     uvec2 mask = uvec2(0u);
@@ -51,7 +36,7 @@ void main() {
         power += float(exposed) * luminance(materials[value].emission_metallic.rgb);
         if (exposed > 0) mask[i >> 5] |= 1u << (i & 31);
     }
-    int index = emitter_node_index(brick, 0);
+    int index = stale ? emitter_node_index(brick, 0) : 0;
     // A loop that runs at most once: llvmpipe runs the body of a branch for lanes that do not take it.
     for (bool differs = stale && (emitter_masks[index] != mask || emitter_power[index] != power); differs;
          differs = false) {
@@ -61,5 +46,20 @@ void main() {
             ivec3 groups = (emitter_levels[level].xyz + 3) / 4;
             for (int axis = 0; axis < 3; ++axis) emitter_groups[3 * level + axis] = uint(groups[axis]);
         }
+    }
+}
+
+void main() {
+    uint item = new_change_item();
+    if (!is_new_change(item)) return;
+    uint id = new_change(item);
+    uvec3 bricks = uvec3(emitter_levels[0].xyz);
+    ivec3 brick = ivec3(id % bricks.x, id / bricks.x % bricks.y, id / (bricks.x * bricks.y));
+    // The brick, then the six beside it; these have an invocation of their own where all are looked at.
+    int count = new_changes_all != 0u ? 1 : 7;
+    for (int k = 0; k < count; ++k) {
+        ivec3 at = brick;
+        if (k > 0) at[(k - 1) >> 1] += 2 * (k & 1) - 1;
+        look_at(at);
     }
 }

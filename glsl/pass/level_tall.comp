@@ -12,7 +12,17 @@ uniform bool diagonal;  // lines of this tick
 const int LAYER = TALL_SIDE * TALL_SIDE;
 const int HAS_WATER = 1;
 const int HAS_SAND = 2;
-shared int matter;
+shared int in_block;
+// As levelling finds them: layers that hold water, and room for it, a bit each.
+shared int wet_layers, roomy_layers;
+// 1: a cell may hold something else than before: 0, as the block fell; 1 and 2, in a pass of levelling.
+shared int changed_parts[3];
+
+// At the end of a part of the tick; a barrier must follow before anyone asks.
+void tell_changes(int part) {
+    for (bool tells = changed_here; tells; tells = false) changed_parts[part] = 1;
+    changed_here = false;
+}
 
 #ifdef PRESSURE
 shared uint head[GRID_CELLS];
@@ -22,13 +32,15 @@ int index_of(int x, int y, int z) { return x + TALL_SIDE * z + LAYER * y; }
 
 // A column: sand sinks, water falls, unless the head below holds it.
 void fall(int upper_at, int upper_y, bool sinks_in_water) {
-    int upper = grid[upper_at];
-    int lower = grid[upper_at - LAYER];
+    int upper_cell = grid[upper_at];
+    int lower_cell = grid[upper_at - LAYER];
+    int upper = content_in(upper_cell);
+    int lower = content_in(lower_cell);
     if (!is_open(lower)) return;
+    int moved = 0;
     if (upper == SAND) {
         if (lower != 0 && !sinks_in_water) return;
-        grid[upper_at] = lower;
-        grid[upper_at - LAYER] = SAND;
+        moved = SAND - lower;  // they change places
     } else if (is_open(upper) && upper > 0 && lower < FULL) {
 #ifdef PRESSURE
         uint h = head[upper_at - LAYER];
@@ -36,9 +48,13 @@ void fall(int upper_at, int upper_y, bool sinks_in_water) {
             height_of(h) >= surface_quarters(upper_y, upper) + HEAD_PER_VOXEL)
             return;
 #endif
-        int moved = min(upper, FULL - lower);
-        grid[upper_at] = upper - moved;
-        grid[upper_at - LAYER] = lower + moved;
+        moved = min(upper, FULL - lower);
+    }
+    // A loop that runs at most once: llvmpipe runs the body of a branch for lanes that do not take it.
+    for (bool moves = moved != 0; moves; moves = false) {
+        grid[upper_at] = upper_cell - moved;
+        grid[upper_at - LAYER] = lower_cell + moved;
+        changed_here = true;
     }
 }
 
@@ -48,32 +64,36 @@ void slide_sand(ivec3 first, uint sub) {
     for (uint k = 0u; k < 4u; ++k) {
         uint i = (k + way) & 3u;
         int at = index_of(first.x + int(i & 1u), first.y, first.z + int(i >> 1));
-        if (grid[at + LAYER] != SAND || is_open(grid[at])) continue;
+        if (content_in(grid[at + LAYER]) != SAND || is_open(content_in(grid[at]))) continue;
         bool z_first = (way >> (4u + k) & 1u) != 0u;
         for (uint s = 0u; s < 2u; ++s) {
             uint j = i ^ ((s == 0u) == z_first ? 2u : 1u);
             int to = index_of(first.x + int(j & 1u), first.y, first.z + int(j >> 1));
-            if (!is_open(grid[to]) || !is_open(grid[to + LAYER])) continue;
-            grid[at + LAYER] = grid[to];
-            grid[to] = SAND;
+            int lower = content_in(grid[to]);
+            if (!is_open(lower) || !is_open(content_in(grid[to + LAYER]))) continue;
+            set_content(at + LAYER, lower);
+            set_content(to, SAND);
             break;
         }
     }
 }
 
 // What each cell of this invocation's column stands on. Of the block's lowest layer only the world's floor is known.
-void find_supports(int column, int world_y) {
+// Adds to the layers that hold water (x) and room for it (y), a bit each.
+void find_supports(int column, int world_y, inout ivec2 layers) {
     int below = CLOSED;
     bool below_pressed = false;
     for (int y = 0; y < TALL_HEIGHT; ++y) {
-        int content = content_in(grid[column + LAYER * y]);
+        int cell = grid[column + LAYER * y];
+        int content = content_in(cell);
+        layers |= ivec2(content > 0 && is_open(content), content < FULL) << y;
         int flags = support_of(below);
         if (below_pressed) flags |= STANDS;
 #ifdef PRESSURE
         below_pressed = is_pressed(head[column + LAYER * y], world_y + y);
         if (below_pressed) flags |= PRESSED;
 #endif
-        grid[column + LAYER * y] = content | flags;
+        grid[column + LAYER * y] = (cell & ~FLAGS) | flags;
         below = content;
     }
 }
@@ -82,11 +102,11 @@ void find_supports(int column, int world_y) {
 void find_cuts(ivec3 local, int step_x) {
     int x = local.x + step_x;
     bool within = x >= 0 && x < TALL_SIDE && local.z + 1 < TALL_SIDE;
-    for (int y = 0; within && y < TALL_HEIGHT; ++y) {
+    for (int y = 0; y < TALL_HEIGHT; ++y) {
         int at = index_of(local.x, y, local.z);
-        int beside = content_in(grid[at + step_x]);
-        int behind = content_in(grid[at + TALL_SIDE]);
-        if (!is_open(beside) && !is_open(behind)) grid[at] |= CUT;
+        int beside = within ? content_in(grid[at + step_x]) : 0;
+        int behind = within ? content_in(grid[at + TALL_SIDE]) : 0;
+        grid[at] = (grid[at] & ~CUT) | (is_open(beside) || is_open(behind) ? 0 : CUT);
     }
 }
 
@@ -181,19 +201,24 @@ void main() {
     ivec3 corner = block * ivec3(TALL_SIDE, TALL_HEIGHT, TALL_SIDE) - offset_vox;
     uint chance = block_chance(block);
     int lane = int(gl_LocalInvocationIndex);
-    if (lane == 0) matter = 0;
+    if (lane == 0) {
+        in_block = 0;
+        wet_layers = 0;
+        roomy_layers = 0;
+        changed_parts = int[3](0, 0, 0);
+    }
     barrier();
     int found = 0;
     for (int column = lane; column < LAYER; column += TALL_INVOCATIONS)
         for (int y = 0; y < TALL_HEIGHT; ++y) {
             int content = load_content(corner + local_of(column) + ivec3(0, y, 0));
-            grid[column + LAYER * y] = content;
+            grid[column + LAYER * y] = content | content << BEFORE_SHIFT;
             if (content > 0 && is_open(content)) found |= HAS_WATER;
             if (content == SAND) found |= HAS_SAND;
         }
-    if (found != 0) atomicOr(matter, found);
+    if (found != 0) atomicOr(in_block, found);
     barrier();
-    int moving = matter;
+    int moving = in_block;
     if (moving == 0) return;
 
     for (int column = lane; column < LAYER; column += TALL_INVOCATIONS) {
@@ -203,9 +228,14 @@ void main() {
             head[column + LAYER * y] = inside_world(cell) ? imageLoad(acting_head, cell).r : 0u;
         }
 #endif
-        for (int fall_pass = 0; fall_pass < 2; ++fall_pass)
-            for (int y = 1; y < TALL_HEIGHT; ++y) fall(column + LAYER * y, corner.y + y, fall_pass == 0);
+        // Where nothing falls in the first, nothing does in the second.
+        bool changed_before = changed_here;
+        changed_here = false;
+        for (int y = 1; y < TALL_HEIGHT; ++y) fall(column + LAYER * y, corner.y + y, true);
+        for (int y = 1; y < TALL_HEIGHT && changed_here; ++y) fall(column + LAYER * y, corner.y + y, false);
+        changed_here = changed_here || changed_before;
     }
+    tell_changes(0);
     barrier();
     if ((moving & HAS_SAND) != 0) {
         uint sub = hash2(chance, 99u);
@@ -214,6 +244,7 @@ void main() {
             ivec3 first = start + 2 * ivec3(i % 8, i / 8 % 4, i / 32);
             if (all(lessThan(first + 1, ivec3(TALL_SIDE, TALL_HEIGHT, TALL_SIDE)))) slide_sand(first, sub);
         }
+        tell_changes(0);
         barrier();
     }
     if ((moving & HAS_WATER) != 0) {
@@ -222,8 +253,17 @@ void main() {
         for (int pass = 0; pass < 2; ++pass) {
             int direction = diagonal ? (int(chance >> 29 & 1u) == pass ? 2 : 3)
                                      : (int(chance >> 30 & 1u) == pass ? 0 : 1);
-            for (int column = lane; column < LAYER; column += TALL_INVOCATIONS) find_supports(column, corner.y);
+            // What the first pass left as it was stands on what it stood on.
+            bool stale = pass == 0 || changed_parts[1] != 0;
+            ivec2 layers = ivec2(0);
+            for (int column = stale ? lane : LAYER; column < LAYER; column += TALL_INVOCATIONS)
+                find_supports(column, corner.y, layers);
+            for (bool finds = any(notEqual(layers, ivec2(0))); finds; finds = false) {
+                atomicOr(wet_layers, layers.x);
+                atomicOr(roomy_layers, layers.y);
+            }
             barrier();
+            int live_layers = wet_layers & roomy_layers;
             for (int column = diagonal ? lane : LAYER; column < LAYER; column += TALL_INVOCATIONS)
                 find_cuts(local_of(column), direction == 2 ? 1 : -1);
             barrier();
@@ -231,8 +271,10 @@ void main() {
             for (int i = lane; i < lines; i += TALL_INVOCATIONS) {
                 int y, number;
                 Line line = line_of(i, direction, lowest, y, number);
+                if ((live_layers >> y & 1) == 0) line.count = 0;
                 level_line(line, rule, line_chance(chance, direction, y, number));
             }
+            tell_changes(1 + pass);
             barrier();
         }
 #ifdef PRESSURE
@@ -246,13 +288,16 @@ void main() {
 #endif
     }
 
+#ifndef PRESSURE
+    if ((changed_parts[0] | changed_parts[1] | changed_parts[2]) == 0) return;
+#endif
     for (int column = lane; column < LAYER; column += TALL_INVOCATIONS)
         for (int y = 0; y < TALL_HEIGHT; ++y) {
             ivec3 cell = corner + local_of(column) + ivec3(0, y, 0);
             int at = column + LAYER * y;
             int content = content_in(grid[at]);
             if (content == CLOSED) continue;
-            if (content != content_of(imageLoad(cells, cell).r)) {
+            if (content != content_before(grid[at])) {
                 imageStore(cells, cell, uvec4(cell_of(content)));
                 mark_changed(cell);
             }

@@ -24,9 +24,24 @@
 #define STORAGE_ACTIVE_NEXT 2
 #define STORAGE_ACTIVE 3
 #define STORAGE_BLOCKS 4
-#define STORAGE_BLOCKS_WIDE 5
+#define STORAGE_AWAKE_BLOCKS 5
+#define STORAGE_AWAKE_BLOCKS_WIDE 4
 #define STORAGE_BLOCK_MARKS 6
 #define STORAGE_HEAD_CLOCK 7
+#define STORAGE_CHANGES 8
+// And of those that look at what changed
+#define STORAGE_NEW_CHANGES 9
+#define STORAGE_MATTER 10
+#define STORAGE_BRICK_FLIPS 1
+#define STORAGE_DISTANCE_BOXES 2
+#define STORAGE_STALE_TILES 1
+#define STORAGE_TILE_LISTED 2
+#define STORAGE_TILE_COUNTS 3
+
+// Bricks that a workgroup of theirs takes
+#define CHANGES_PER_GROUP 64
+// Side in voxels of the tiles by which cells are counted: 1 KiB of counts each
+#define CENSUS_TILE 32
 
 // Side of a brick in voxels, and its logarithm. 4: a primary ray over the lake takes 17 steps, with 8 it took 28
 #define BRICK_SIDE 4

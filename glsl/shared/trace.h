@@ -10,7 +10,8 @@ TARN_CONSTANT int OPTION_CAUSTICS = 2;
 TARN_CONSTANT int OPTION_UNIFORM_DIFFUSE = 4;
 TARN_CONSTANT int OPTION_JITTER = 8;
 TARN_CONSTANT int OPTION_STRAIGHT_SUNLIGHT = 16;
-TARN_CONSTANT int OPTION_SCATTER = 32;  // lib/scatter.glsl
+TARN_CONSTANT int OPTION_PREETHAM_SKY = 32;
+TARN_CONSTANT int OPTION_SCATTER = 64;  // lib/scatter.glsl
 
 // Below this alpha (roughness^2) a surface is a perfect mirror or interface.
 TARN_CONSTANT float ALPHA_SMOOTH = 1e-3f;

@@ -9,12 +9,15 @@
 #include "app/legend.h"
 #include "app/overlay.h"
 #include "core/error.h"
+#include "core/front.h"
 
 namespace tarn {
 
 namespace {
 
 constexpr double poll_interval_s = 0.5;
+constexpr double error_interval_s = 0.5;
+constexpr std::uint64_t error_interval_frames = 16;  // of slow ones: it costs part of a frame
 constexpr double message_s = 5;
 constexpr double rate_window_s = 0.5;
 
@@ -52,6 +55,12 @@ ViewKind neighbour_of(ViewKind view, bool backwards) {
     return static_cast<ViewKind>((static_cast<int>(view) + (backwards ? count - 1 : 1)) % count);
 }
 
+std::vector<double> front_times() {
+    std::vector<double> times;
+    for (const FrontPoint& point : front()) times.push_back(point.time);
+    return times;
+}
+
 double tick_ms_total(const gl::Timers& timers) {
     double sum_ms = 0;
     for (const gl::PassTime& pass : timers.passes()) {
@@ -67,8 +76,12 @@ App::App(Scene scene, const Settings& settings, Options options)
       scene_(std::move(scene)),
       settings_(settings),
       rendered_(settings),
+      trace_programs_(options.interactive && options.platform != nullptr
+                          ? options.platform->make_shared_context()
+                          : nullptr),
       simulation_(std::make_unique<Simulation>(scene_, timers_)),
-      renderer_(std::make_unique<Renderer>(scene_, timers_)) {
+      renderer_(std::make_unique<Renderer>(scene_, timers_, &trace_programs_)),
+      governor_(front_times()) {
     set_title();
 }
 
@@ -92,7 +105,7 @@ void App::load(const std::string& name_or_path) {
     apply_quality(base, Quality::Balanced);
     Scene scene = load_scene(name_or_path, base);
     auto simulation = std::make_unique<Simulation>(scene, timers_);
-    auto renderer = std::make_unique<Renderer>(scene, timers_);
+    auto renderer = std::make_unique<Renderer>(scene, timers_, &trace_programs_);
     scene_ = std::move(scene);
     simulation_ = std::move(simulation);
     renderer_ = std::move(renderer);
@@ -122,10 +135,16 @@ const gl::Texture& App::frame(const Input& input) {
     if (interactive) edit(input);
     advance(input);
 
+    renderer_->keep_variance(interactive && settings_.overlay);
     const gl::Texture& picture = renderer_->render(*simulation_, settings_, input.size_px);
     rendered_ = settings_;
     ++frames_;
     if (actions.screenshot) write_screenshot();
+    if (interactive && settings_.overlay && now_s() >= next_error_s_ && frames_ >= next_error_frame_) {
+        renderer_->measure_error();
+        next_error_s_ = now_s() + error_interval_s;
+        next_error_frame_ = frames_ + error_interval_frames;
+    }
     timers_.end_frame();
     if (interactive) simulation_->refresh_census(now_s());
     if (interactive) draw_overlays(input);
@@ -172,6 +191,7 @@ void App::change_settings(const Input& input, Actions& actions) {
     set_captured(look_toggled_ || input.is_down(Key::MouseLookHold));
     fly(settings_, input, captured_);
     tools_.choose(input);
+    govern(input);
 
     if (panels_.settings_open && scenes_.empty()) scenes_ = builtin_scenes();
     const Settings before = settings_;
@@ -182,9 +202,18 @@ void App::change_settings(const Input& input, Actions& actions) {
                   .scenes = scenes_,
                   .paused = clock_.paused(),
                   .can_undo = history_.can_undo(),
-                  .can_redo = history_.can_redo()},
+                  .can_redo = history_.can_redo(),
+                  .recording = recorder_.is_on(),
+                  .expected_ms = governor_.expected_ms(front_point(settings_.tradeoff))},
                  actions);
     if (!same_camera(before, settings_)) renderer_->reset_history();  // a jump, not a flight
+}
+
+void App::govern(const Input& input) {
+    const std::size_t point = front_point(settings_.tradeoff);
+    const double target_ms = settings_.governor ? settings_.frame_time_target_ms : 0;
+    const std::size_t next = governor_.frame(input.dt_s * 1000, point, target_ms);
+    if (settings_.governor && next != point) apply_front_point(settings_, next);
 }
 
 void App::run_actions(const Actions& actions) {
@@ -198,6 +227,7 @@ void App::run_actions(const Actions& actions) {
     } catch (const Error& error) {
         say(error.what());
     }
+    if (actions.record) start_or_stop_recording();
     if (!actions.undo && !actions.redo) return;
     tools_.end_stroke();
     if (const auto changes = actions.undo ? history_.undo() : history_.redo()) simulation_->write(*changes);
@@ -220,6 +250,7 @@ void App::edit(const Input& input) {
         tools_.use(input, picked, {view.eye_vox(), view.dir_through(at_px)}, simulation_->tick());
     if (stroke.begins) history_.begin_stroke();
     for (const Edit& e : stroke.edits) simulation_->apply(e, history_);
+    frame_edits_ = stroke.edits;
     if (tools_.aim()) {
         const Brush& brush = tools_.brush;
         draw_outline(view, brush, *tools_.aim(), tools_.removing(), outline_color(brush));
@@ -239,6 +270,8 @@ void App::advance(const Input& input) {
         if (ticks == 0 || clock_.paused()) ticks = by_clock;
     }
     simulation_->step(ticks, settings_);
+    recorder_.add_frame(settings_, frame_edits_, ticks);
+    frame_edits_.clear();
     rate_ticks_ += static_cast<std::uint64_t>(ticks);
     const double since_s = now_s() - rate_start_s_;
     if (since_s < rate_window_s) return;
@@ -266,6 +299,7 @@ void App::draw_overlays(const Input& input) {
                       .census = simulation_->recent_census(),
                       .active_bricks = simulation_->recent_active_bricks(),
                       .samples = renderer_->samples(),
+                      .error = renderer_->estimated_error(false),
                       .rejected_samples = rejected_samples_,
                       .brush = tools_.brush});
     if (settings_.view != ViewKind::Picture) draw_legend(settings_.view);

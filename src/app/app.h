@@ -8,12 +8,15 @@
 #include <vector>
 
 #include "app/camera.h"
+#include "app/flight_recorder.h"
+#include "app/governor.h"
 #include "app/panels.h"
 #include "app/renderer.h"
 #include "app/simulation.h"
 #include "app/tick_clock.h"
 #include "app/tools.h"
 #include "gl/timers.h"
+#include "passes/trace_programs.h"
 #include "platform/platform.h"
 
 namespace tarn {
@@ -52,6 +55,7 @@ class App {
   private:
     void poll_shaders();
     void change_settings(const Input& input, Actions& actions);
+    void govern(const Input& input);
     void run_actions(const Actions& actions);
     Pick pick(glm::ivec2 size_px, glm::vec2 at_px, bool through_water);
     void edit(const Input& input);
@@ -59,6 +63,7 @@ class App {
     void advance(const Input& input);
     void draw_overlays(const Input& input);
     void write_screenshot();
+    void start_or_stop_recording();
     void say(const std::string& text);
     void set_captured(bool captured);
     void set_title();
@@ -69,12 +74,16 @@ class App {
     Scene scene_;
     Settings settings_;
     Settings rendered_;  // of the last frame: what changed since may restart the history
+    TracePrograms trace_programs_;
     std::unique_ptr<Simulation> simulation_;
     std::unique_ptr<Renderer> renderer_;
     EditHistory history_;
     Tools tools_;
     TickClock clock_;
     Panels panels_;
+    Governor governor_;
+    FlightRecorder recorder_;
+    std::vector<Edit> frame_edits_;     // of this frame
     std::vector<SceneSummary> scenes_;  // read when first shown
 
     bool look_toggled_ = false;
@@ -82,6 +91,8 @@ class App {
     std::string message_, shader_error_;
     double message_until_s_ = 0;
     double next_poll_s_ = 0;
+    double next_error_s_ = 0;
+    std::uint64_t next_error_frame_ = 0;
     std::uint64_t frames_ = 0;
     std::uint64_t rejected_samples_ = 0;
     double frame_ms_ = 0;  // smoothed

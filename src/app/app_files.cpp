@@ -62,4 +62,27 @@ void App::write_screenshot() {
     }
 }
 
+void App::start_or_stop_recording() {
+    if (!recorder_.is_on()) {
+        recorder_.start(scene_.name, simulation_->tick());
+        say("recording");
+        return;
+    }
+    const auto recording = recorder_.stop();
+    if (!recording) return;
+    try {
+        for (int n = 1; n <= screenshots_max; ++n) {
+            const std::filesystem::path file = fmt::format("tarn-{:04}.flight.json", n);
+            if (std::filesystem::exists(file)) continue;
+            write_file(file, recording_json(*recording));
+            say(fmt::format("wrote {}: {} frames", (std::filesystem::current_path() / file).string(),
+                            recording->frames()));
+            return;
+        }
+        fail("tarn-{:04}.flight.json: this folder holds that many recordings already", screenshots_max);
+    } catch (const std::exception& error) {
+        say(error.what());
+    }
+}
+
 }  // namespace tarn

@@ -59,7 +59,6 @@ FrameBlock make_frame_block(const FrameInputs& in) {
     set_sun(block, s);
     block.sky_zenith = glm::vec4(s.sky_zenith, 0);
     block.sky_horizon = glm::vec4(s.sky_horizon, 0);
-    if (s.sky_model == SkyModel::Preetham) set_clear_sky(block, s);
     block.trace_limits = {s.max_distance_vox, in.metres_per_voxel, s.firefly_limit, 0};
     int options = 0;
     if (s.sun_through_water) options |= OPTION_SUN_THROUGH_WATER;
@@ -68,6 +67,10 @@ FrameBlock make_frame_block(const FrameInputs& in) {
     if (s.jitter) options |= OPTION_JITTER;
     if (s.straight_sunlight) options |= OPTION_STRAIGHT_SUNLIGHT;
     if (in.scattered) options |= OPTION_SCATTER;
+    if (s.sky_model == SkyModel::Preetham) {
+        set_clear_sky(block, s);
+        options |= OPTION_PREETHAM_SKY;
+    }
     block.trace_options = {s.max_bounces, s.roulette_after, s.max_diffuse_bounces, options};
     block.size_px = {in.traced_px, in.shown_px};
     block.history = {s.history_alpha, static_cast<float>(s.history_cap), place_in_cell(in)};

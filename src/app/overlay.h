@@ -2,6 +2,7 @@
 // outline of the brush. Takes no input.
 #pragma once
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,7 +23,9 @@ struct OverlayInputs {
     glm::ivec3 size_vox;
     const Census& census;
     std::uint32_t active_bricks;
-    std::uint64_t samples, rejected_samples;
+    std::uint64_t samples;
+    std::optional<double> error;  // estimated relMSE
+    std::uint64_t rejected_samples;
     const Brush& brush;
 };
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "app/setting_row.h"
+#include "core/front.h"
 
 namespace tarn {
 
@@ -106,6 +107,26 @@ void draw_world(const Panels::Inputs& inputs, Actions& actions) {
     tooltip("Loads a built-in scene with its camera, water, sun and sky; what was built here is lost.");
     ImGui::SameLine();
     actions.screenshot |= button("Picture", "Write tarn-0001.png and its settings beside it (F12).");
+    ImGui::SameLine();
+    actions.record |= button(inputs.recording ? "Stop" : "Record",
+                             "Record the flight and all edits to tarn-0001.flight.json, until pressed again; "
+                             "`tarn render --path` plays it.");
+}
+
+// Where the slider stands, and what the measured front says of it.
+void draw_front_point(const Panels::Inputs& inputs) {
+    const std::size_t at = front_point(inputs.settings.tradeoff);
+    const FrontPoint& point = front()[at];
+    const auto as_set = point_of(inputs.settings);
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextUnformatted(fmt::format("{} of {}: {}{}", at + 1, front().size(), front_label(point),
+                                       as_set == at ? "" : ", changed since")
+                               .c_str());
+    const std::string time = inputs.expected_ms > 0
+                                 ? fmt::format("{:.1f} ms a frame", inputs.expected_ms)
+                                 : fmt::format("{:.2g} times balanced's frame time", point.time);
+    ImGui::TextUnformatted(fmt::format("expects {}, error (relMSE) {:.2g}", time, point.error).c_str());
+    ImGui::PopTextWrapPos();
 }
 
 }  // namespace
@@ -159,11 +180,14 @@ void Panels::draw_settings(const Inputs& inputs, Actions& actions) {
         const std::span<const SettingInfo> infos = setting_infos();
         for (auto info = infos.begin(); info != infos.end();) {
             const SettingGroup group = info->group;
-            const bool open = ImGui::CollapsingHeader(group_name(group));
+            const bool trade = group == SettingGroup::TRADE;
+            const bool open =
+                ImGui::CollapsingHeader(group_name(group), trade ? ImGuiTreeNodeFlags_DefaultOpen : 0);
             tooltip(fmt::format("Show or hide the settings of {}.", group_name(group)));
             for (; info != infos.end() && info->group == group; ++info) {
                 if (open) setting_row(*info, inputs.settings, inputs.defaults);
             }
+            if (trade && open) draw_front_point(inputs);
         }
     }
     ImGui::End();

@@ -15,6 +15,7 @@ namespace tarn {
 struct Actions {
     bool toggle_pause = false, step = false, faster = false, slower = false, reload = false;
     bool undo = false, redo = false, screenshot = false;
+    bool record = false;                    // starts or stops
     std::optional<std::string> load_scene;  // a built-in name
 };
 
@@ -27,6 +28,8 @@ class Panels {
         const std::string& scene;
         std::span<const SceneSummary> scenes;
         bool paused, can_undo, can_redo;
+        bool recording = false;
+        double expected_ms = 0;  // of a frame where `tradeoff` stands; 0: not known
     };
     // Draws the open windows; between the platform's next_frame() and present().
     void draw(const Inputs& inputs, Actions& actions);

@@ -60,14 +60,15 @@ void Renderer::Parts::refine(const Simulation& simulation, const Settings& now) 
     frame_block.bind_uniform(BINDING_FRAME);
     material_block.bind_uniform(BINDING_MATERIALS);
 
-    const TraceFeatures needed = features(simulation, r.settings, r.block);
+    const TracePrograms::Choice choice = program_for(simulation, r.settings, r.block);
+    if (!choice.exact) return;  // its program is being built
+    const TraceFeatures& needed = choice.pass.features();
     if (needed.emitters) update_emitters(simulation);
     const glm::ivec2 size = targets->shown_px;
     const int first_row = size.y * r.band / bands;
     glEnable(GL_SCISSOR_TEST);
     glScissor(0, first_row, size.x, size.y * (r.band + 1) / bands - first_row);
-    trace_pass(needed).record(trace_inputs(simulation, needed), {.target = r.targets->trace_target[0]},
-                              timers);
+    choice.pass.record(trace_inputs(simulation, needed), {.target = r.targets->trace_target[0]}, timers);
     glDisable(GL_SCISSOR_TEST);
     r.band = (r.band + 1) % bands;
     if (r.band != 0) return;

@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "app/camera.h"
+#include "app/error_estimate.h"
 #include "app/frame_block.h"
 #include "app/renderer_parts.h"
+#include "app/trace_needs.h"
 #include "core/error.h"
 #include "gl/framebuffer.h"
 #include "passes/bricks.h"
@@ -21,28 +23,31 @@ constexpr std::size_t moving_frames = 8;
 
 }  // namespace
 
-TraceFeatures Renderer::Parts::features(const Simulation& simulation, const Settings& of,
-                                        const FrameBlock& in) const {
-    TraceFeatures features;
-    for (std::size_t id = MATERIAL_AIR + 1; id < materials.size(); ++id) {
-        if (!contents.may_hold(simulation, id)) continue;
-        const Material& m = materials[id];
-        const bool clear = id == MATERIAL_WATER || id == MATERIAL_GLASS;
-        if (clear) features.rough |= m.roughness * m.roughness >= ALPHA_SMOOTH;
-        if (!clear) features.coated |= m.ior != 1 || m.metallic > 0;
-        if (!clear) features.metal |= m.metallic > 0;
-        features.clear |= clear;
-        const glm::vec3 shines = id == MATERIAL_WATER ? glm::vec3(0) : m.emission;  // as in lib/emitter_tree
-        features.emitters |= std::max({shines.x, shines.y, shines.z}) > 0;
-    }
-    features.skip = of.traversal == Traversal::Distance;
-    features.sun = of.light_sampling != LightSampling::None && in.sun_radiance.w > 0;
-    features.sky = of.light_sampling == LightSampling::All;
-    features.emitters &= of.light_sampling != LightSampling::None;
-    features.clear_sky = of.sky_model == SkyModel::Preetham;
-    features.smooth_water = of.smooth_water && contents.may_hold(simulation, MATERIAL_WATER);
-    features.count = counts_paths(of.view);
-    return features;
+TraceShapes Renderer::Parts::shapes(const Simulation& simulation) const {
+    const FrameTargets& frame = targets->frames[0];
+    return {.cells = simulation.cells().small_like(),
+            .brick_distance = simulation.brick_distance().small_like(),
+            .brick_changed = simulation.brick_changed().small_like(),
+            .albedo_table = albedo.dielectric.small_like(),
+            .metal_albedo_table = albedo.metal.small_like(),
+            .glass_albedo_table = albedo.glass.small_like(),
+            .targets = {targets->radiance[0].small_like(), frame.surface.small_like()}};
+}
+
+TracePrograms::Choice Renderer::Parts::program_for(const Simulation& simulation, const Settings& of,
+                                                   const FrameBlock& in) {
+    const auto held = [&](std::size_t id) { return contents.may_hold(simulation, id); };
+    const TraceFeatures needed = with(always, needed_features(of, materials, in, held));
+    const TraceFeatures general = with(needed, general_features(of, materials));
+    return trace.choose(needed, general, shapes(simulation));
+}
+
+const TracePass& Renderer::Parts::choose_program(const Simulation& simulation) {
+    const TracePrograms::Choice choice = program_for(simulation, settings, block);
+    // A setting takes effect with its program: history begins anew after this frame.
+    effect_is_late = choice.exact && !exact_program;
+    exact_program = choice.exact;
+    return choice.pass;
 }
 
 void Renderer::Parts::prepare_targets(const Settings& now, glm::ivec2 size_px) {
@@ -99,7 +104,7 @@ void Renderer::Parts::upload_frame(const Simulation& simulation, const Settings&
 void Renderer::Parts::update_emitters(const Simulation& simulation) {
     built(emitters, bricks_of(simulation.size_vox()))
         .record({.cells = simulation.cells(),
-                 .brick_changed = simulation.brick_changed(),
+                 .changes = simulation.changes(),
                  .version = static_cast<std::uint32_t>(simulation.version())},
                 timers);
 }
@@ -125,14 +130,13 @@ bool Renderer::Parts::world_changed(const Simulation& simulation) const {
 
 // Some of the last frame's paths, with its eye and its random numbers, in the world as it is now. False where
 // the world has not changed or nothing asks for it.
-bool Renderer::Parts::retrace(const Simulation& simulation, TraceFeatures features) {
+bool Renderer::Parts::retrace(const Simulation& simulation, const TracePass& pass) {
     if (settings.history != History::Count || !settings.retrace_changes || !has_history) return false;
     if (!world_changed(simulation)) return false;
-    features.count = false;
     frame_block.upload(std::span(&block_before, 1));
-    TracePass::Inputs inputs = trace_inputs(simulation, features);
+    TracePass::Inputs inputs = trace_inputs(simulation, pass.features());
     inputs.stride = RETRACE_STRIDE;
-    trace_pass(features).record(inputs, {.target = targets->retrace_target}, timers);
+    pass.record(inputs, {.target = targets->retrace_target}, timers);
     frame_block.upload(std::span(&block, 1));
     return true;
 }
@@ -153,7 +157,7 @@ const gl::Texture& Renderer::Parts::reproject_and_filter(const Simulation& simul
     const gl::Texture* radiance = &targets->radiance[current];
     if (settings.history != History::None) {
         const bool blend = settings.history == History::Blend;
-        const bool moments = settings.view == ViewKind::Variance;
+        const bool moments = views.keeps_moments();
         const bool upsample = targets->upsampled;
         built(temporal[blend][moments][upsample], blend, moments, upsample)
             .record({.current = {targets->radiance[current], targets->traced_surface_of(current)},
@@ -199,15 +203,15 @@ void Renderer::Parts::render_preset(const Simulation& simulation, const Settings
     prepare_targets(now, size_px);
     upload_frame(simulation, now);
     current = 1 - current;
-    const TraceFeatures needed = features(simulation, settings, block);
-    if (needed.emitters) update_emitters(simulation);
+    const TracePass& pass = choose_program(simulation);
+    if (pass.features().emitters) update_emitters(simulation);
     views.prepare(settings, *targets, has_history);
-    const bool retraced = retrace(simulation, needed);
-    trace_pass(needed).record(trace_inputs(simulation, needed),
-                              {.target = views.trace_target(*targets, current)}, timers);
+    const bool retraced = retrace(simulation, pass);
+    pass.record(trace_inputs(simulation, pass.features()), {.target = views.trace_target(*targets, current)},
+                timers);
     shown = settings.history == History::Exact ? &accumulate_exact()
                                                : &reproject_and_filter(simulation, retraced);
-    has_history = true;
+    has_history = !effect_is_late;
     frames_kept = std::min<std::uint64_t>(frames_kept + 1, FRAMES_KEPT_MAX);
 }
 
@@ -219,7 +223,8 @@ void Renderer::Parts::show(const gl::Framebuffer& target, bool raw) {
         views.show(*targets, current, raw, target, timers);
 }
 
-Renderer::Renderer(const Scene& scene, gl::Timers& timers) : parts_(std::make_unique<Parts>(scene, timers)) {}
+Renderer::Renderer(const Scene& scene, gl::Timers& timers, TracePrograms* programs)
+    : parts_(std::make_unique<Parts>(scene, timers, programs)) {}
 
 Renderer::~Renderer() = default;
 
@@ -244,6 +249,10 @@ void Renderer::world_replaced() {
     parts_->emitters.reset();
     parts_->versions.clear();
     reset_history();
+}
+
+void Renderer::compile_in(const TraceFeatures& always) {
+    parts_->always = always;
 }
 
 void Renderer::reset_history() {
@@ -310,6 +319,35 @@ ImageRgb32f Renderer::read_radiance() const {
     return image;
 }
 
+void Renderer::keep_variance(bool on) {
+    parts_->views.keep_variance(on);
+    if (!on) parts_->error.forget();
+}
+
+void Renderer::measure_error() {
+    Parts& p = *parts_;
+    CHECK(p.targets && p.shown != nullptr);
+    const bool exact = p.settings.history == History::Exact;
+    if (!exact && !p.views.keeps_moments()) {
+        p.error.forget();
+        return;
+    }
+    p.frame_block.upload(std::span(&p.block, 1));
+    p.frame_block.bind_uniform(BINDING_FRAME);
+    p.material_block.bind_uniform(BINDING_MATERIALS);
+    p.error.measure(
+        p.targets->shown_px,
+        [&](const gl::Framebuffer& to) { p.views.show_variance(*p.targets, p.current, to, p.timers); },
+        [&](const gl::Framebuffer& to) {
+            p.built(p.display[1][0], true, false).record({.radiance = *p.shown}, {.picture = to}, p.timers);
+        },
+        p.timers);
+}
+
+std::optional<double> Renderer::estimated_error(bool wait) const {
+    return parts_->error.last(wait);
+}
+
 std::uint64_t Renderer::samples() const {
     if (parts_->refinement.samples > 0) return parts_->refinement.samples;
     const Settings& s = parts_->settings;
@@ -326,7 +364,7 @@ std::uint64_t Renderer::rejected_samples() const {
 }
 
 double Renderer::compile_ms() const {
-    return parts_->compile_ms + parts_->views.compile_ms();
+    return parts_->compile_ms + parts_->views.compile_ms() + parts_->trace.waited_ms();
 }
 
 std::vector<std::string> Renderer::poll_reload() {
@@ -339,8 +377,9 @@ std::vector<std::string> Renderer::poll_reload() {
     const auto poll = [&](auto& pass) {
         if (pass) poll_program(pass->program());
     };
-    for (auto& [features, pass] : parts_->trace) poll_program(pass.program());
+    parts_->trace.poll_reload(messages);
     parts_->views.for_each_program(poll_program);
+    parts_->error.for_each_program(poll_program);
     for (int i = 0; i < 2; ++i) {
         for (auto& pair : parts_->temporal[i])
             for (auto& pass : pair) poll(pass);

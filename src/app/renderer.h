@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,9 @@
 
 namespace tarn {
 
+class TracePrograms;
+struct TraceFeatures;
+
 // The voxel around the eye, be it of any medium but air; else the first surface that a ray from the eye
 // meets.
 struct Pick {
@@ -27,7 +31,9 @@ struct Pick {
 
 class Renderer {
   public:
-    Renderer(const Scene& scene, gl::Timers& timers);
+    // `programs`: shared with renderers of other scenes, and built beside the frames; null: its own, built
+    // when needed.
+    Renderer(const Scene& scene, gl::Timers& timers, TracePrograms* programs = nullptr);
     ~Renderer();
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
@@ -39,6 +45,9 @@ class Renderer {
     void reset_history();
     // Another simulation, of the same scene, comes with the next frame.
     void world_replaced();
+
+    // What the trace program can do though the scene has no need of it. For measurements and tests.
+    void compile_in(const TraceFeatures& always);
 
     // Of the next frame: its random numbers follow from it. For tests of counter wrap.
     void set_frame_index(std::uint64_t index);
@@ -57,7 +66,15 @@ class Renderer {
     // Kept per pixel: of exact mode and of a refined picture all; else up to the cap.
     std::uint64_t samples() const;
     std::uint64_t rejected_samples() const;  // not finite, since the start
-    double compile_ms() const;               // spent building programs so far
+    // Keeps from the next frame on what an estimate needs.
+    void keep_variance(bool on);
+    // Measures the error of the frame last rendered; the answer comes frames later.
+    void measure_error();
+    // The estimated relMSE of the luminance: the noise that the spread of the frames shows, before the
+    // filter, and no bias. Nothing before the first answer or without a history. wait: for the answer under
+    // way.
+    std::optional<double> estimated_error(bool wait) const;
+    double compile_ms() const;  // spent building programs so far
 
     std::vector<std::string> poll_reload();
 

@@ -2,10 +2,10 @@
 // rest).
 #pragma once
 #include <deque>
-#include <map>
 #include <optional>
 
 #include "app/albedo_textures.h"
+#include "app/error_estimate.h"
 #include "app/render_targets.h"
 #include "app/renderer.h"
 #include "app/stopwatch.h"
@@ -18,7 +18,7 @@
 #include "passes/filter_pass.h"
 #include "passes/pick_pass.h"
 #include "passes/temporal_pass.h"
-#include "passes/trace_pass.h"
+#include "passes/trace_programs.h"
 #include "shared/frame.h"
 
 namespace tarn {
@@ -48,7 +48,11 @@ struct Renderer::Parts {
 
     // A program is built when first used: a run pays for the passes it needs.
     double compile_ms = 0;
-    std::map<TraceFeatures, TracePass> trace;
+    TracePrograms own_trace;  // of a renderer that is given none
+    TracePrograms& trace;
+    TraceFeatures always{};     // compiled in whatever the scene needs
+    bool exact_program = true;  // TracePrograms::Choice::exact of the last frame
+    bool effect_is_late = false;
     std::optional<EmittersPass> emitters;
     std::optional<TemporalPass> temporal[2][2][2];  // [blend][moments][upsample]
     std::optional<FilterPass> filter[2];            // [gaussian]
@@ -58,6 +62,7 @@ struct Renderer::Parts {
 
     std::optional<RenderTargets> targets;
     Views views;
+    ErrorEstimate error;
     FrameBlock block;  // of the last frame
     FrameBlock block_before;
     Settings settings;  // of the last frame
@@ -72,12 +77,13 @@ struct Renderer::Parts {
     const gl::Texture* shown = nullptr;  // radiance of the last frame that the preset made
     Refinement refinement;
 
-    Parts(const Scene& scene, gl::Timers& timers_)
+    Parts(const Scene& scene, gl::Timers& timers_, TracePrograms* programs)
         : timers(timers_),
           contents(scene),
           materials(scene.materials),
           metres_per_voxel(scene.metres_per_voxel),
-          seed(scene.seed) {}
+          seed(scene.seed),
+          trace(programs != nullptr ? *programs : own_trace) {}
 
     template <typename Pass, typename... Arguments>
     Pass& built(std::optional<Pass>& pass, Arguments... arguments) {
@@ -88,15 +94,9 @@ struct Renderer::Parts {
         }
         return *pass;
     }
-    TracePass& trace_pass(const TraceFeatures& features) {
-        const auto found = trace.find(features);
-        if (found != trace.end()) return found->second;
-        const Stopwatch watch;
-        TracePass& pass = trace.try_emplace(features, features).first->second;
-        compile_ms += watch.ms();
-        return pass;
-    }
-    TraceFeatures features(const Simulation& simulation, const Settings& of, const FrameBlock& in) const;
+    TraceShapes shapes(const Simulation& simulation) const;
+    TracePrograms::Choice program_for(const Simulation& simulation, const Settings& of, const FrameBlock& in);
+    const TracePass& choose_program(const Simulation& simulation);
     void prepare_targets(const Settings& now, glm::ivec2 size_px);
     void upload_frame(const Simulation& simulation, const Settings& now);
     SurfaceBuffers surfaces(int set, const gl::Texture& radiance) const {
@@ -107,7 +107,7 @@ struct Renderer::Parts {
     TracePass::Inputs trace_inputs(const Simulation& simulation, const TraceFeatures& features);
     // Since the last frame. May wait for the GPU.
     bool world_changed(const Simulation& simulation) const;
-    bool retrace(const Simulation& simulation, TraceFeatures features);
+    bool retrace(const Simulation& simulation, const TracePass& pass);
     const gl::Texture& accumulate_exact();
     const gl::Texture& reproject_and_filter(const Simulation& simulation, bool retraced);
     void render_preset(const Simulation& simulation, const Settings& now, glm::ivec2 size_px);

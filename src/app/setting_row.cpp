@@ -21,6 +21,30 @@ bool is_quality(const SettingInfo& info) {
     return std::string_view(info.name) == "quality";
 }
 
+// A setting that works only while another one has (or has not) some value.
+struct Dependence {
+    std::string_view name, on;
+    bool equal;
+    std::string_view value;
+};
+constexpr Dependence dependences[] = {
+    {"history_alpha", "history", true, "blend"},       {"history_cap", "history", true, "count"},
+    {"filter_passes", "filter", false, "none"},        {"turbidity", "sky_model", true, "preetham"},
+    {"sky_brightness", "sky_model", true, "preetham"}, {"sun_irradiance", "sky_model", true, "gradient"},
+    {"sky_zenith", "sky_model", true, "gradient"},     {"sky_horizon", "sky_model", true, "gradient"},
+};
+
+// Why the setting changes nothing as the others stand; empty: it works.
+std::string idle_reason(const SettingInfo& info, const Settings& settings) {
+    for (const Dependence& dependence : dependences) {
+        if (dependence.name != info.name) continue;
+        const std::string now = setting_text(settings, *find_setting(dependence.on));
+        if ((now == dependence.value) != dependence.equal)
+            return fmt::format("\nNo effect while {} is {}.", dependence.on, now);
+    }
+    return {};
+}
+
 void assign(const SettingInfo& info, Settings& settings, glm::dvec3 value) {
     for (int c = 0; c < 3; ++c) {
         if (!std::isfinite(value[c])) return;
@@ -119,9 +143,12 @@ void setting_row(const SettingInfo& info, Settings& settings, const Settings& de
     std::replace(label.begin(), label.end(), '_', ' ');
     glm::dvec3 value = info.get(settings);
     ImGui::SetNextItemWidth(ImGui::GetFontSize() * 13);
+    const std::string idle = idle_reason(info, settings);
+    ImGui::PushStyleVar(ImGuiStyleVar_Alpha, ImGui::GetStyle().Alpha * (idle.empty() ? 1.f : 0.45f));
     const bool changed = draw_widget(info, label.c_str(), value);
-    std::string help = fmt::format("{}\n\n{}: {}; default {}.", info.help, info.name, allowed_values(info),
-                                   setting_text(defaults, info));
+    ImGui::PopStyleVar();
+    std::string help = fmt::format("{}\n\n{}: {}; default {}.{}", info.help, info.name, allowed_values(info),
+                                   setting_text(defaults, info), idle);
     if (is_quality(info)) {
         Settings preset = settings;
         apply_quality(preset, settings.quality);

@@ -51,17 +51,18 @@ struct Simulation::Parts {
           brick_changed({.label = "brick changed", .format = GL_R32UI, .size = bricks_of(size_vox)}),
           water(scene),
           bricks(bricks_of(size_vox)),
+          census_pass(size_vox),
           census(take_census(scene.cells)) {}
 
     std::uint32_t stamp() const { return static_cast<std::uint32_t>(version); }
     std::uint32_t tick32() const { return static_cast<std::uint32_t>(tick); }
     void update_bricks() {
-        bricks.record({.cells = cells, .brick_changed = brick_changed, .version = stamp()},
+        bricks.record({.cells = cells, .activity = water.activity(), .version = stamp()},
                       {.brick_distance = brick_distance}, timers);
     }
     void load(const Cells& from);
-    void stamp_bricks(const Box& bounds, const std::vector<std::uint8_t>& before,
-                      const std::vector<std::uint8_t>& after);
+    void mark_bricks(const Box& bounds, const std::vector<std::uint8_t>& before,
+                     const std::vector<std::uint8_t>& after);
     void write_region(const Box& region, const std::vector<std::uint8_t>& before,
                       const std::vector<std::uint8_t>& after);
     std::vector<std::uint8_t> read_region(const Box& region) const;
@@ -101,37 +102,33 @@ std::vector<std::uint8_t> Simulation::Parts::read_region(const Box& region) cons
     return bytes;
 }
 
-void Simulation::Parts::stamp_bricks(const Box& bounds, const std::vector<std::uint8_t>& before,
-                                     const std::vector<std::uint8_t>& after) {
+void Simulation::Parts::mark_bricks(const Box& bounds, const std::vector<std::uint8_t>& before,
+                                    const std::vector<std::uint8_t>& after) {
     const glm::ivec3 first = bounds.min_vox / BRICK_SIDE;
     const glm::ivec3 size = (bounds.max_vox - 1) / BRICK_SIDE - first + 1;
-    std::vector<std::uint32_t> stamps(std::size_t{1} * size.x * size.y * size.z);
-    brick_changed.download(first, size, std::span<std::uint32_t>(stamps), GL_RED_INTEGER, GL_UNSIGNED_INT);
+    const glm::ivec3 all = brick_changed.size();
+    std::vector<char> marked(std::size_t{1} * size.x * size.y * size.z, 0);
     std::vector<std::uint32_t> touched;
     std::size_t i = 0;
     for (int z = bounds.min_vox.z; z < bounds.max_vox.z; ++z)
         for (int y = bounds.min_vox.y; y < bounds.max_vox.y; ++y)
             for (int x = bounds.min_vox.x; x < bounds.max_vox.x; ++x, ++i) {
                 if (before[i] == after[i]) continue;
-                const glm::ivec3 brick = glm::ivec3(x, y, z) / BRICK_SIDE - first;
-                std::uint32_t& at =
-                    stamps[brick.x + std::size_t{1} * size.x * (brick.y + std::size_t{1} * size.y * brick.z)];
-                if (at == stamp()) continue;
-                at = stamp();
-                const glm::ivec3 all = brick_changed.size();
-                const glm::ivec3 in_world = brick + first;
-                touched.push_back(
-                    static_cast<std::uint32_t>(in_world.x + all.x * (in_world.y + all.y * in_world.z)));
+                const glm::ivec3 brick = glm::ivec3(x, y, z) / BRICK_SIDE;
+                const glm::ivec3 at = brick - first;
+                char& mark = marked[at.x + std::size_t{1} * size.x * (at.y + std::size_t{1} * size.y * at.z)];
+                if (mark != 0) continue;
+                mark = 1;
+                touched.push_back(static_cast<std::uint32_t>(brick.x + all.x * (brick.y + all.y * brick.z)));
             }
-    water.edited(touched, before, after, tick32());
-    brick_changed.upload(first, size, std::span<const std::uint32_t>(stamps), GL_RED_INTEGER,
-                         GL_UNSIGNED_INT);
+    water.edited({.bricks = touched, .before = before, .after = after, .tick = tick32(), .version = stamp()},
+                 brick_changed);
 }
 
 void Simulation::Parts::write_region(const Box& region, const std::vector<std::uint8_t>& before,
                                      const std::vector<std::uint8_t>& after) {
     cells.upload(region.min_vox, region.size(), std::span<const std::uint8_t>(after), byte_layout, byte_type);
-    stamp_bricks(region, before, after);
+    mark_bricks(region, before, after);
 }
 
 Simulation::Simulation(const Scene& scene, gl::Timers& timers)
@@ -273,7 +270,7 @@ void Simulation::refresh_census(double now_s) {
     }
     if (p.census_pass.pending() || p.census_version == p.version) return;
     if (now_s >= p.census_time_s && now_s - p.census_time_s < census_interval_s) return;
-    p.census_pass.record(p.cells, p.water.activity(), p.timers);
+    p.census_pass.record({.cells = p.cells, .activity = p.water.activity(), .version = p.stamp()}, p.timers);
     p.census_version = p.version;
     p.census_time_s = now_s;
 }
@@ -313,12 +310,15 @@ const gl::Texture& Simulation::brick_distance() const {
 const gl::Texture& Simulation::brick_changed() const {
     return parts_->brick_changed;
 }
+const ChangeLog& Simulation::changes() const {
+    return parts_->water.activity().changes();
+}
 
 std::vector<std::string> Simulation::poll_reload() {
     std::vector<std::string> messages;
     parts_->water.poll_reload(messages);
     parts_->bricks.poll_reload(messages);
-    if (auto message = parts_->census_pass.poll_reload()) messages.push_back(*message);
+    parts_->census_pass.poll_reload(messages);
     return messages;
 }
 

@@ -15,6 +15,8 @@
 
 namespace tarn {
 
+class ChangeLog;
+
 // What springs made and drains took since the scene was loaded.
 struct FlowTotals {
     std::uint64_t sprung_water_quanta = 0, drained_water_quanta = 0;
@@ -72,6 +74,8 @@ class Simulation {
     const gl::Texture& brick_distance() const;
     // R32UI, ceil(size / BRICK_SIDE): version() at which cells in it last changed (low 32 bits).
     const gl::Texture& brick_changed() const;
+    // The same as a log, for what is kept up to date by differences.
+    const ChangeLog& changes() const;
 
     // Rebuilds shaders whose files changed; returns error texts (empty string: rebuilt).
     std::vector<std::string> poll_reload();

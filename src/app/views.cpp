@@ -19,13 +19,13 @@ Views::Targets::Targets(const RenderTargets& targets)
 }
 
 void Views::prepare(const Settings& settings, const RenderTargets& targets, bool has_history) {
-    const bool keeps_moments = settings.view == ViewKind::Variance &&
-                               (settings.history == History::Blend || settings.history == History::Count);
-    const bool kept_moments = view_ == ViewKind::Variance && history_ == settings.history;
-    has_moments_ = targets_ && keeps_moments && kept_moments && has_history;
+    const bool kept_moments = keeps_moments_ && history_ == settings.history;
+    keeps_moments_ = (settings.view == ViewKind::Variance || keep_variance_) &&
+                     (settings.history == History::Blend || settings.history == History::Count);
+    has_moments_ = targets_ && keeps_moments_ && kept_moments && has_history;
     view_ = settings.view;
     history_ = settings.history;
-    if ((counts_paths(view_) || keeps_moments) && !targets_) targets_.emplace(targets);
+    if ((counts_paths(view_) || keeps_moments_) && !targets_) targets_.emplace(targets);
 }
 
 void Views::drop_targets() {
@@ -37,25 +37,35 @@ const gl::Framebuffer& Views::trace_target(const RenderTargets& targets, int cur
 }
 
 const gl::Framebuffer& Views::history_target(const RenderTargets& targets, int current) const {
-    return view_ == ViewKind::Variance ? targets_->history[current] : targets.history_target[current];
+    return keeps_moments_ ? targets_->history[current] : targets.history_target[current];
 }
 
 const gl::Texture* Views::previous_moments(int current) const {
     return has_moments_ ? &targets_->moments[1 - current] : nullptr;
 }
 
-ViewPass& Views::pass(bool raw) {
-    const auto key = std::tuple(view_, history_, raw);
+ViewPass& Views::pass(ViewKind view, bool raw) {
+    const auto key = std::tuple(view, history_, raw);
     const auto found = passes_.find(key);
     if (found != passes_.end()) return found->second;
     const Stopwatch watch;
-    ViewPass& made = passes_.try_emplace(key, view_, history_, raw).first->second;
+    ViewPass& made = passes_.try_emplace(key, view, history_, raw).first->second;
     compile_ms_ += watch.ms();
     return made;
 }
 
 void Views::show(const RenderTargets& targets, int current, bool raw, const gl::Framebuffer& target,
                  gl::Timers& timers) {
+    show(view_, targets, current, raw, target, timers);
+}
+
+void Views::show_variance(const RenderTargets& targets, int current, const gl::Framebuffer& target,
+                          gl::Timers& timers) {
+    show(ViewKind::Variance, targets, current, true, target, timers);
+}
+
+void Views::show(ViewKind view, const RenderTargets& targets, int current, bool raw,
+                 const gl::Framebuffer& target, gl::Timers& timers) {
     const FrameTargets& frame = targets.frames[current];
     const Sums& sums = targets.sums[current];
     const gl::Texture* history = nullptr;
@@ -67,12 +77,12 @@ void Views::show(const RenderTargets& targets, int current, bool raw, const gl::
         history = &frame.history;
         if (targets_) moments = &targets_->moments[current];
     }
-    pass(raw).record({.surface = frame.surface,
-                      .counts = targets_ ? &targets_->counts : nullptr,
-                      .history = history,
-                      .moments = moments,
-                      .correction = history_ == History::Exact ? &sums.correction : nullptr},
-                     {.picture = target}, timers);
+    pass(view, raw).record({.surface = frame.surface,
+                            .counts = targets_ ? &targets_->counts : nullptr,
+                            .history = history,
+                            .moments = moments,
+                            .correction = history_ == History::Exact ? &sums.correction : nullptr},
+                           {.picture = target}, timers);
 }
 
 }  // namespace tarn

@@ -23,6 +23,10 @@ class Views {
     // Whenever the picture's targets are made anew.
     void drop_targets();
 
+    // From the next prepare() on: what the variance follows from is kept, whatever is shown.
+    void keep_variance(bool on) { keep_variance_ = on; }
+    bool keeps_moments() const { return keeps_moments_; }
+
     // What the passes write to and read from; the picture's own targets where the view needs no more.
     // `current` as in the renderer.
     const gl::Framebuffer& trace_target(const RenderTargets& targets, int current) const;
@@ -32,6 +36,9 @@ class Views {
     // Draws the view of the frame that the passes just made; raw: its values, else sRGB.
     void show(const RenderTargets& targets, int current, bool raw, const gl::Framebuffer& target,
               gl::Timers& timers);
+    // The raw view of the variance, of a frame that kept it.
+    void show_variance(const RenderTargets& targets, int current, const gl::Framebuffer& target,
+                       gl::Timers& timers);
 
     double compile_ms() const { return compile_ms_; }
     template <typename Function>
@@ -46,13 +53,17 @@ class Views {
         gl::Framebuffer trace[2], history[2];
         explicit Targets(const RenderTargets& targets);
     };
-    ViewPass& pass(bool raw);
+    ViewPass& pass(ViewKind view, bool raw);
+    void show(ViewKind view, const RenderTargets& targets, int current, bool raw,
+              const gl::Framebuffer& target, gl::Timers& timers);
 
     std::optional<Targets> targets_;
     std::map<std::tuple<ViewKind, History, bool>, ViewPass> passes_;  // [view, history, raw]
     ViewKind view_ = ViewKind::Picture;
     History history_ = History::None;
-    bool has_moments_ = false;  // the last frame wrote some
+    bool keep_variance_ = false;
+    bool keeps_moments_ = false;  // this frame writes some
+    bool has_moments_ = false;    // the last frame wrote some
     double compile_ms_ = 0;
 };
 

@@ -40,20 +40,20 @@ void Water::load(const Cells& cells, std::uint32_t tick) {
     may_confine_ = has_overhang(cells);
     head_.reset();
     activity_.wake_all(tick);
+    activity_.log_all();
 }
 
-void Water::edited(const std::vector<std::uint32_t>& bricks, const std::vector<std::uint8_t>& before,
-                   const std::vector<std::uint8_t>& after, std::uint32_t tick) {
-    may_hold_water_ = may_hold_water_ || holds_water(after);
-    for (std::size_t i = 0; i < after.size() && !may_confine_; ++i)
-        may_confine_ = is_fixed(before[i]) != is_fixed(after[i]);
-    activity_.touch(bricks, tick);
+void Water::edited(const Edited& edit, const gl::Texture& brick_changed) {
+    may_hold_water_ = may_hold_water_ || holds_water(edit.after);
+    for (std::size_t i = 0; i < edit.after.size() && !may_confine_; ++i)
+        may_confine_ = is_fixed(edit.before[i]) != is_fixed(edit.after[i]);
+    activity_.touch(edit.bricks, edit.tick, edit.version, brick_changed);
 }
 
 void Water::tick(const Inputs& in, const Outputs& out, gl::Timers& timers) {
     // What was at rest under one rule need not be under another.
     const bool other_rule = last_ && (last_->tier != in.tier || last_->film_threshold != in.film_threshold);
-    if (other_rule || in.always_awake) activity_.wake_all(in.tick);
+    if (other_rule || (in.always_awake && !activity_.all_awake(in.tick))) activity_.wake_all(in.tick);
     last_ = in;
     if (in.tier != WaterTier::Pressure) head_.reset();
     if (in.tier == WaterTier::Pressure && !head_ && may_hold_water_ && may_confine_) head_.emplace(size_vox_);

@@ -36,13 +36,19 @@ class Water {
     // All asleep; load() first.
     explicit Water(const Scene& scene);
 
-    // All cells are new, or the tick counter was set: everything wakes.
+    // All cells are new: everything wakes and counts as changed.
     void load(const Cells& cells, std::uint32_t tick);
     void wake_all(std::uint32_t tick) { activity_.wake_all(tick); }
     void sleep_all(std::uint32_t tick) { activity_.sleep_all(tick); }
-    // An edit before `tick` changed cells of these bricks; `before` and `after` are bytes of one box.
-    void edited(const std::vector<std::uint32_t>& bricks, const std::vector<std::uint8_t>& before,
-                const std::vector<std::uint8_t>& after, std::uint32_t tick);
+    // An edit before `tick` that makes `version` changed cells of `bricks`, at least one of each; `before`
+    // and `after` are bytes of one box.
+    struct Edited {
+        const std::vector<std::uint32_t>& bricks;  // x fastest, then y, then z
+        const std::vector<std::uint8_t>& before;
+        const std::vector<std::uint8_t>& after;
+        std::uint32_t tick, version;
+    };
+    void edited(const Edited& edit, const gl::Texture& brick_changed);
 
     void tick(const Inputs& in, const Outputs& out, gl::Timers& timers);
 

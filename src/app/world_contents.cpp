@@ -18,9 +18,7 @@ std::uint64_t WorldContents::emissive_edits(const Simulation& simulation,
     const EditTotals& edits = simulation.edit_totals();
     std::uint64_t sum = 0;
     for (std::size_t id = 0; id < materials.size(); ++id) {
-        const glm::vec3 shines = materials[id].emission;
-        if (std::max({shines.x, shines.y, shines.z}) > 0)
-            sum += edits.placed.voxels[id] + edits.removed.voxels[id];
+        if (shines(materials[id])) sum += edits.placed.voxels[id] + edits.removed.voxels[id];
     }
     return sum;
 }

@@ -63,6 +63,12 @@ std::vector<Bar> bars() {
                     0.005,
                     0.001,
                     false});
+    list.push_back({"tick at rest, 512^3 / 64^3",
+                    {"sim", "terrain-512", "tick", "asleep"},
+                    {"sim", "terrain-512", "tick", "asleep 64^3"},
+                    2,
+                    1.2,
+                    false});
     list.push_back({"stroke of radius 8 / balanced frame",
                     {"edit", "terrain-512", "stroke", "radius 8"},
                     {"edit", "terrain-512", "frame 640x360", "balanced"},

@@ -62,12 +62,12 @@ std::vector<std::pair<std::string, std::string>> about_machine() {
 
 std::string figures_text(std::span<const BenchFigure> figures) {
     std::string text =
-        fmt::format("{:<6} {:<12} {:<30} {:<10} {:>9} {:>11} {:>11} {:>11} {:>7} {:>4}\n", "suite", "scene",
+        fmt::format("{:<8} {:<12} {:<30} {:<10} {:>9} {:>11} {:>11} {:>11} {:>7} {:>4}\n", "suite", "scene",
                     "what", "who", "unit", "median", "min", "max", "spread", "n");
     for (const BenchFigure& f : figures) {
         const Statistics s = statistics_of(f.samples);
         text +=
-            fmt::format("{:<6} {:<12} {:<30} {:<10} {:>9} {:>11.5g} {:>11.5g} {:>11.5g} {:>6.1f}% {:>4}\n",
+            fmt::format("{:<8} {:<12} {:<30} {:<10} {:>9} {:>11.5g} {:>11.5g} {:>11.5g} {:>6.1f}% {:>4}\n",
                         f.key.suite, f.key.scene, f.key.what, f.key.who, f.unit, s.median, s.min, s.max,
                         100 * s.spread, f.samples.size());
     }
@@ -136,7 +136,7 @@ std::vector<BenchFigure> read_bench_json(const std::string& text, const std::str
 }
 
 std::string compare_text(std::span<const BenchFigure> before, std::span<const BenchFigure> now) {
-    std::string text = fmt::format("{:<6} {:<12} {:<30} {:<10} {:>9} {:>11} {:>11} {:>8}  {}\n", "suite",
+    std::string text = fmt::format("{:<8} {:<12} {:<30} {:<10} {:>9} {:>11} {:>11} {:>8}  {}\n", "suite",
                                    "scene", "what", "who", "unit", "old", "new", "new/old", "samples apart");
     std::size_t shared = 0;
     for (const BenchFigure& f : now) {
@@ -150,7 +150,7 @@ std::string compare_text(std::span<const BenchFigure> before, std::span<const Be
         const bool fell = b.max < a.min;
         const bool better = more_is_better(f.unit) ? rose : fell;
         const char* verdict = !rose && !fell ? "" : better ? "better" : "worse";
-        text += fmt::format("{:<6} {:<12} {:<30} {:<10} {:>9} {:>11.5g} {:>11.5g} {:>8}  {}\n", f.key.suite,
+        text += fmt::format("{:<8} {:<12} {:<30} {:<10} {:>9} {:>11.5g} {:>11.5g} {:>8}  {}\n", f.key.suite,
                             f.key.scene, f.key.what, f.key.who, f.unit, a.median, b.median,
                             a.median != 0 ? fmt::format("{:.3f}", b.median / a.median) : std::string("-"),
                             verdict);

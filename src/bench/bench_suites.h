@@ -28,5 +28,6 @@ void run_frame_suite(const BenchOptions& options, BenchResult& result);
 void run_sim_suite(const BenchOptions& options, BenchResult& result);
 void run_edit_suite(const BenchOptions& options, BenchResult& result);
 void run_start_suite(const BenchOptions& options, BenchResult& result);
+void run_variants_suite(const BenchOptions& options, BenchResult& result);
 
 }  // namespace tarn

@@ -20,7 +20,7 @@ Settings balanced() {
 
 }  // namespace
 
-std::string bench_scene_json(int side_vox) {
+std::string bench_scene_json(int side_vox, const char* lake) {
     using nlohmann::ordered_json;
     const double k = static_cast<double>(side_vox) / side_unscaled_vox;
     const auto cells = [&](double unscaled_vox) { return static_cast<int>(std::lround(unscaled_vox * k)); };
@@ -57,7 +57,7 @@ std::string bench_scene_json(int side_vox) {
     scene["sun"] = {{"azimuth_deg", 112}, {"elevation_deg", 38}};
     scene["sky"] = {{"model", "preetham"}, {"turbidity", 2.1}};
     scene["build"] = {
-        {{"box", {{"min", {0, 0, 0}}, {"max", {side_vox, cells(22), side_vox}}, {"material", "water"}}}},
+        {{"box", {{"min", {0, 0, 0}}, {"max", {side_vox, cells(22), side_vox}}, {"material", lake}}}},
         {{"terrain", terrain}}};
     return scene.dump(2) + "\n";
 }
@@ -69,6 +69,11 @@ std::string bench_scene_name(int side_vox) {
 std::unique_ptr<BenchWorld> make_bench_world(int side_vox) {
     return std::make_unique<BenchWorld>(
         parse_scene(bench_scene_json(side_vox), bench_scene_name(side_vox), balanced()));
+}
+
+std::unique_ptr<BenchWorld> make_dry_bench_world(int side_vox) {
+    return std::make_unique<BenchWorld>(
+        parse_scene(bench_scene_json(side_vox, "stone"), fmt::format("dry-{}", side_vox), balanced()));
 }
 
 std::unique_ptr<BenchWorld> make_builtin_world(const std::string& name) {

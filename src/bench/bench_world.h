@@ -12,7 +12,7 @@ namespace tarn {
 
 // The text of a scene file: `side_vox`^3 voxels, the hills of the scene `lake` times side / 128, with detail
 // down to the voxel.
-std::string bench_scene_json(int side_vox);
+std::string bench_scene_json(int side_vox, const char* lake = "water");
 std::string bench_scene_name(int side_vox);
 
 struct BenchWorld {
@@ -25,6 +25,8 @@ struct BenchWorld {
 
 // Quality `balanced`. Both need a current context.
 std::unique_ptr<BenchWorld> make_bench_world(int side_vox);
+// The same land with stone in the lake's place.
+std::unique_ptr<BenchWorld> make_dry_bench_world(int side_vox);
 std::unique_ptr<BenchWorld> make_builtin_world(const std::string& name);
 
 }  // namespace tarn

@@ -6,9 +6,11 @@
 #include <limits>
 
 #include "cli/bench_command.h"
+#include "cli/tradeoff_command.h"
 #include "core/error.h"
 #include "measure/light_table.h"
 #include "measure/water_scenarios.h"
+#include "world/recording.h"
 
 namespace tarn {
 
@@ -62,6 +64,34 @@ void apply_view(const std::string& text, Settings& settings) {
     if (found == names.end())
         fail("--view {}: no such view; allowed: one of {}", text, fmt::join(names, ", "));
     settings.view = static_cast<ViewKind>(found - names.begin());
+}
+
+void path_options(CLI::App* render, Arguments& arguments, CLI::Option* frames) {
+    auto* path = render->add_option(
+        "--path", arguments.path,
+        "Play a recording, a built-in name below or a file ending in .json, in the scene; writes "
+        "F-0000.png, F-0001.png, ...");
+    path->excludes(frames);
+    render
+        ->add_flag("--strip", arguments.strip,
+                   "All frames of the recording in one PNG, six in a row, from left to right")
+        ->needs(path);
+    render->footer(fmt::format(
+        "Recordings: {}.\n"
+        "A recording is a file of JSON for any scene: the scene is --scene, its world after --ticks. Keys:\n"
+        "  camera           relative: positions are right, up, ahead of the scene's camera, angles are turns "
+        "from it;\n"
+        "                   absolute: as in --camera\n"
+        "  frames           how many\n"
+        "  lead_frames      before the first, with its camera and without ticks, not written (0)\n"
+        "  ticks_per_frame  a number, or a list with one for each frame (0)\n"
+        "  keys             list of {{frame, position_vox, yaw_deg, pitch_deg, fov_deg}}, the first at frame "
+        "0; straight\n"
+        "                   between them\n"
+        "  edits            list of {{frame, center_vox, shape (sphere, cube), radius_vox, material, "
+        "overwrite}}\n"
+        "With --exact each frame is the mean of --spp samples.",
+        fmt::join(builtin_recordings(), ", ")));
 }
 
 void water_options(CLI::App* water, Arguments& arguments) {
@@ -143,9 +173,55 @@ void bench_options(CLI::App* bench, Arguments& arguments) {
         "  edit   strokes of the brush of radius 1, 8 and 32\n"
         "  start  the program's start to its first frame, with empty and with filled caches of shaders; peak "
         "memory\n"
+        "  variants\n"
+        "         frames with code compiled in that their scene has no need of, against the same without; "
+        "smallest "
+        "size\n"
         "Medians and the spread between quartiles; `bars` are ratios within the run. Exit code 1: "
         "contestants do\n"
         "not find the same, or a world does not come to rest.");
+}
+
+void tradeoff_options(CLI::App* tradeoff, Arguments& arguments, std::string& size) {
+    tradeoff->add_flag("--quick", arguments.quick,
+                       "One scene and few configurations: minutes in place of hours");
+    tradeoff->add_option(
+        "--part", arguments.suites,
+        fmt::format("Parts, separated by commas (all): {}", fmt::join(tradeoff_parts(), ", ")));
+    tradeoff->add_option("--scene", arguments.scenarios,
+                         fmt::format("Scenes, separated by commas (all; --quick: lake): {}",
+                                     fmt::join(tradeoff_scenes(), ", ")));
+    tradeoff->add_option("--out", arguments.out,
+                         "Folder for tradeoff.csv, charts and references; made where it is missing");
+    tradeoff->add_flag("--resume", arguments.resume,
+                       "Go on with the rows in --out that this very program wrote, asked the same");
+    tradeoff->add_option(
+        "--size", size,
+        "Size of the timed pictures, WIDTHxHEIGHT (640x360); errors are of a quarter of it each way");
+    tradeoff->add_flag("--report", arguments.report,
+                       "Measure nothing: tables and charts of the rows in --out again");
+    tradeoff->add_option(
+        "--write-front", arguments.write_front,
+        "Write the front for the slider and the governor; the program's is assets/front.json");
+    tradeoff->add_option("--configurations", arguments.configurations, "At most so many (200; --quick: 16)")
+        ->check(CLI::Range(1, 200));
+    tradeoff
+        ->add_option("--reference-samples", arguments.reference_samples,
+                     "At most so many per pixel of a reference (512; --quick: 256)")
+        ->check(CLI::Range(4, 1 << 20));
+    tradeoff->footer(
+        "Errors are relMSE of the luminance at 160x90 over the recordings still, flying and moving-water, "
+        "each "
+        "frame\n"
+        "against its own reference in quality exact; times are of a frame at 640x360, all of a batch and "
+        "balanced in\n"
+        "turn. A coordinate search from the qualities. floor: the reference's own relMSE; a row within 3 "
+        "times "
+        "it\n"
+        "chooses nothing. bias: the error that endless samples would leave. A run that was interrupted goes "
+        "on "
+        "with\n"
+        "--resume. Exit code 1: a sample was not finite.");
 }
 
 // CLI11 spreads its help over lines; an error is one.
@@ -162,7 +238,10 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
     std::string size;
     CLI::App app{"Tarn: a path-traced voxel sandbox with water as its heart.", "tarn"};
     app.require_subcommand(1);
-    app.footer("Exit codes: 0; 1 a check failed; 2 bad input. `tarn COMMAND --help` explains a command.");
+    app.footer(
+        "Exit codes: 0; 1 a check failed; 2 bad input. `tarn COMMAND --help` explains a command.\n"
+        "Compiled programs are kept in $XDG_CACHE_HOME/tarn or ~/.cache/tarn, at most 64 MiB; "
+        "TARN_PROGRAM_CACHE=off keeps and reads none.");
     app.set_version_flag("--version", TARN_VERSION);
 
     const auto scene_options = [&](CLI::App* command, bool required) {
@@ -209,6 +288,7 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
                                    fmt::join(choice_names<ViewKind>(), ", ")));
     render->add_option("--camera", arguments.camera, "x,y,z,yaw,pitch[,fov] in place of the scene's");
     render->add_option("--stats", arguments.stats, "Write counts, times and settings as JSON");
+    path_options(render, arguments, frames);
 
     CLI::App* simulate = app.add_subcommand("simulate", "Run the simulation without a picture");
     scene_options(simulate, true);
@@ -233,6 +313,10 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
         "Measure speed: rays, frames, ticks, edits and starts, each beside what it is compared with");
     bench_options(bench, arguments);
 
+    CLI::App* tradeoff = app.add_subcommand(
+        "tradeoff", "Measure the trade of speed for accuracy: time against error, and the best of both");
+    tradeoff_options(tradeoff, arguments, size);
+
     app.add_subcommand("scenes", "List the built-in scenes");
     app.add_subcommand("settings", "List every setting: key, range, default, help");
     app.add_subcommand("doctor", "Check the driver and run a self-test; exit code 0 or 1");
@@ -240,8 +324,8 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
     const auto named = [&](const CLI::App* command) { return command->check_name(argv[1]); };
     if (argc > 1 && *argv[1] != '-' && app.get_subcommands(named).empty())
         fail(
-            "{}: no such command; allowed: play, render, simulate, water, light, bench, scenes, settings, "
-            "doctor",
+            "{}: no such command; allowed: play, render, simulate, water, light, bench, tradeoff, scenes, "
+            "settings, doctor",
             argv[1]);
     for (CLI::App* command : app.get_subcommands({}))
         for (CLI::Option* option : command->get_options())
@@ -257,6 +341,8 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
         fail("{}; `tarn --help` and `tarn COMMAND --help` list what is allowed", one_line(error.what()));
     }
     arguments.command = app.get_subcommands().front()->get_name();
+    if (arguments.configurations == 0) arguments.configurations = arguments.quick ? 16 : 200;
+    if (arguments.reference_samples == 0) arguments.reference_samples = arguments.quick ? 256 : 512;
     if (!size.empty()) arguments.size_px = parse_size(size);
     return arguments;
 }

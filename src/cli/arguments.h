@@ -20,6 +20,8 @@ struct Arguments {
     std::vector<std::string> set;
     std::uint64_t ticks = 0;
     int frames = 1;
+    std::string path;    // of `render`: a recording
+    bool strip = false;  // its frames in one picture
     bool exact = false;
     int spp = 64;
     std::optional<std::uint32_t> seed;
@@ -33,6 +35,10 @@ struct Arguments {
     std::string suites, compare, with;
     std::vector<int> bench_sides_vox{128, 256, 512};
     int repeats = 5;
+    // Of `tradeoff`; its scenes are `scenarios`.
+    bool quick = false, resume = false, report = false;
+    std::string write_front;
+    int configurations = 0, reference_samples = 0;  // 0: by --quick
 };
 
 // Nothing where help was asked for and printed. Throws Error naming the argument, the reason and what is

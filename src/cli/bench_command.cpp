@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <ctime>
 #include <filesystem>
 #include <thread>
 
+#include "app/stopwatch.h"
 #include "bench/bars.h"
 #include "bench/bench_report.h"
 #include "bench/bench_suites.h"
@@ -25,11 +27,9 @@ struct Suite {
     const char* name;
     void (*run)(const BenchOptions&, BenchResult&);
 };
-constexpr Suite suites[] = {{"rays", run_rays_suite},
-                            {"frame", run_frame_suite},
-                            {"sim", run_sim_suite},
-                            {"edit", run_edit_suite},
-                            {"start", run_start_suite}};
+constexpr Suite suites[] = {{"rays", run_rays_suite},   {"frame", run_frame_suite},
+                            {"sim", run_sim_suite},     {"edit", run_edit_suite},
+                            {"start", run_start_suite}, {"variants", run_variants_suite}};
 
 std::vector<BenchFigure> read_figures(const std::string& path) {
     return read_bench_json(read_text_file(path), path);
@@ -61,8 +61,16 @@ BenchReport measure(const Arguments& arguments, const std::vector<std::string>& 
                                .rounds = arguments.repeats,
                                .threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency())),
                                .progress = [&](const std::string& what) { progress.show(what); }};
-    for (const Suite& suite : suites)
-        if (std::find(names.begin(), names.end(), suite.name) != names.end()) suite.run(options, result);
+    for (const Suite& suite : suites) {
+        if (std::find(names.begin(), names.end(), suite.name) == names.end()) continue;
+        const Stopwatch watch;
+        const std::clock_t processors = std::clock();
+        suite.run(options, result);
+        add_sample(result.figures, {suite.name, "all", "the suite itself", "all"}, "s", watch.ms() / 1e3);
+        // All threads of this process: on a busy machine less than its wall clock says.
+        add_sample(result.figures, {suite.name, "all", "the suite itself, processor time", "all"}, "s",
+                   static_cast<double>(std::clock() - processors) / CLOCKS_PER_SEC);
+    }
     report.figures = std::move(result.figures);
     report.notes = std::move(result.notes);
     report.failures = std::move(result.failures);

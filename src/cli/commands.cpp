@@ -11,7 +11,10 @@
 #include "cli/bench_command.h"
 #include "cli/doctor.h"
 #include "cli/light_command.h"
+#include "cli/path_command.h"
 #include "cli/progress.h"
+#include "cli/ticks.h"
+#include "cli/tradeoff_command.h"
 #include "cli/water_command.h"
 #include "core/error.h"
 #include "core/files.h"
@@ -31,20 +34,6 @@ glm::ivec2 picture_size(const Arguments& arguments) {
 void check_outputs(const Arguments& arguments) {
     for (const std::string* path : {&arguments.out, &arguments.stats, &arguments.cells, &arguments.amounts}) {
         if (!path->empty()) check_writable(*path);
-    }
-}
-
-// Waits for the GPU now and then: so that the bar shows what is done, and timer queries do not pile up.
-void run_ticks(Simulation& simulation, const Settings& settings, std::uint64_t ticks, gl::Timers& timers) {
-    Progress progress("ticks", ticks);
-    constexpr std::uint64_t chunk = 64;
-    for (std::uint64_t done = 0; done < ticks;) {
-        const std::uint64_t n = std::min(chunk, ticks - done);
-        simulation.step(static_cast<int>(n), settings);
-        timers.end_frame();
-        timers.finish();
-        done += n;
-        progress.show(done);
     }
 }
 
@@ -86,6 +75,8 @@ int run_render(const Arguments& arguments) {
     const std::string extension = std::filesystem::path(arguments.out).extension();
     if (extension != ".png" && extension != ".exr")
         fail("--out {}: unknown kind of picture; allowed: a name ending in .png or .exr", arguments.out);
+    if (!arguments.path.empty()) return render_path(arguments, picture_size(arguments));
+    if (arguments.strip) fail("--strip: of the frames of a recording; give --path too");
     check_outputs(arguments);
     render_to(arguments, scene_of(arguments));
     return 0;
@@ -163,6 +154,7 @@ int run_command_line(int argc, char** argv) {
     if (arguments->command == "water") return run_water_command(*arguments);
     if (arguments->command == "light") return run_light_command(*arguments);
     if (arguments->command == "bench") return run_bench_command(*arguments);
+    if (arguments->command == "tradeoff") return run_tradeoff_command(*arguments);
     if (arguments->command == "scenes") return run_scenes();
     if (arguments->command == "settings") return run_settings();
     return run_doctor();

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/front.h"
 #include "core/sun_clock.h"
 
 namespace tarn {
@@ -206,6 +207,8 @@ std::span<const SettingInfo> setting_infos() {
 
 const char* group_name(SettingGroup group) {
     switch (group) {
+        case SettingGroup::TRADE:
+            return "Speed or accuracy";
         case SettingGroup::SIMULATION:
             return "Simulation";
         case SettingGroup::LIGHT:
@@ -274,6 +277,11 @@ void assign_setting(Settings& settings, const SettingInfo& info, glm::dvec3 valu
         apply_quality(settings, static_cast<Quality>(static_cast<int>(value.x)));
         return;
     }
+    if (name == "tradeoff") {
+        apply_front_point(settings, front_point(value.x));
+        settings.tradeoff = static_cast<float>(value.x);
+        return;
+    }
     info.set(settings, value);
     if (name == "time_of_day_h") {
         const SunPosition sun = sun_position(value.x);
@@ -295,10 +303,24 @@ void set_assignment(Settings& settings, std::string_view assignment) {
     set_setting(settings, assignment.substr(0, equals), assignment.substr(equals + 1));
 }
 
-void apply_quality(Settings& settings, Quality quality) {
+void apply_preset(Settings& settings, Quality quality) {
     for (const PresetRow& row : presets)
         set_setting(settings, row.name, row.values[static_cast<std::size_t>(quality)]);
     settings.quality = quality;
+}
+
+void apply_quality(Settings& settings, Quality quality) {
+    apply_preset(settings, quality);
+    // Off the front: about where it would be.
+    constexpr float else_at[] = {0, 0, 0.5f, 1, 1};
+    const auto point = point_of(settings);
+    settings.tradeoff = point ? front_position(*point) : else_at[static_cast<std::size_t>(quality)];
+}
+
+std::vector<std::string> preset_keys() {
+    std::vector<std::string> keys;
+    for (const PresetRow& row : presets) keys.emplace_back(row.name);
+    return keys;
 }
 
 SettingEffect difference(const Settings& a, const Settings& b) {

@@ -25,7 +25,7 @@ enum class ViewKind { Picture, Albedo, Normal, Depth, Material, Bounces, Steps, 
 template <typename Enum>
 std::span<const char* const> choice_names();
 
-enum class SettingGroup { SIMULATION, LIGHT, IMAGE_FILTER, CAMERA, WATER, SKY, DISPLAY };
+enum class SettingGroup { TRADE, SIMULATION, LIGHT, IMAGE_FILTER, CAMERA, WATER, SKY, DISPLAY };
 enum class SettingEffect { NONE, IMAGE, TARGETS };
 enum class SettingKind { Int, Real, Bool, Choice, Vec3, Color };
 
@@ -83,6 +83,13 @@ void set_assignment(Settings& settings, std::string_view assignment);
 
 // Sets `quality` and every setting that its preset names.
 void apply_quality(Settings& settings, Quality quality);
+
+// The same, but for `tradeoff`, which apply_quality moves to where the quality lies on the front
+// (core/front.h).
+void apply_preset(Settings& settings, Quality quality);
+
+// The settings that every quality sets, in the order of the presets.
+std::vector<std::string> preset_keys();
 
 // The strongest effect among the fields in which `a` and `b` differ.
 SettingEffect difference(const Settings& a, const Settings& b);

@@ -8,6 +8,13 @@
 #pragma once
 
 #define TARN_SETTINGS(INT, REAL, BOOL, CHOICE, VEC3, COLOR)                                                  \
+    REAL(                                                                                                    \
+        tradeoff, 0.5, 0, 1, TRADE, NONE,                                                                    \
+        "Speed (0) or accuracy (1): the nearest point of the measured front, which sets what is below. The " \
+        "qualities are points of it or near.")                                                               \
+    BOOL(governor, false, TRADE, NONE,                                                                       \
+         "Move tradeoff by itself so that frames take frame_time_target_ms, in the window.")                 \
+    REAL(frame_time_target_ms, 33, 1, 10000, TRADE, NONE, "The time of a frame that the governor holds.")    \
     REAL(ticks_per_second, 30, 1, 1000, SIMULATION, NONE, "Simulation ticks per second of play.")            \
     INT(ticks_per_frame, 0, 0, 1000, SIMULATION, NONE,                                                       \
         "Ticks before each frame; 0: by the clock in the window, none headless.")                            \

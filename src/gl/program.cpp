@@ -5,6 +5,8 @@
 
 #include "core/assets.h"
 #include "core/error.h"
+#include "gl/context.h"
+#include "gl/program_cache.h"
 
 namespace tarn::gl {
 
@@ -74,38 +76,103 @@ class Shader {
 struct Built {
     GLuint name;
     std::vector<std::string> files;
+    bool was_cached;
 };
 
-Built build(const ProgramDesc& desc) {
-    const bool compute = !desc.compute.empty();
-    std::vector<ShaderText> sources;
-    if (compute) {
-        sources.push_back(shader_text(desc.compute, desc.defines));
-    } else {
-        sources.push_back(shader_text(desc.vertex, desc.defines));
-        sources.push_back(shader_text(desc.fragment, desc.defines));
+struct Stage {
+    GLenum type;
+    ShaderText source;
+};
+
+bool is_linked(GLuint program) {
+    GLint ok = 0;
+    glGetProgramiv(program, GL_LINK_STATUS, &ok);
+    return ok != 0;
+}
+
+void compile_and_link(GLuint program, const std::vector<Stage>& stages, const char* label) {
+    for (const Stage& stage : stages) {
+        const Shader shader(stage.type, stage.source);
+        glAttachShader(program, shader.name());
     }
-    Built built{glCreateProgram(), {}};
-    try {
-        for (std::size_t i = 0; i < sources.size(); ++i) {
-            const GLenum type = compute ? GL_COMPUTE_SHADER : i == 0 ? GL_VERTEX_SHADER : GL_FRAGMENT_SHADER;
-            const Shader shader(type, sources[i]);
-            glAttachShader(built.name, shader.name());
-            for (const std::string& file : sources[i].files) built.files.push_back(file);
+    glProgramParameteri(program, GL_PROGRAM_BINARY_RETRIEVABLE_HINT, GL_TRUE);
+    glLinkProgram(program);
+    if (is_linked(program)) return;
+    GLint length = 0;
+    glGetProgramiv(program, GL_INFO_LOG_LENGTH, &length);
+    std::string log(static_cast<std::size_t>(std::max(length, 1)), '\0');
+    glGetProgramInfoLog(program, length, nullptr, log.data());
+    fail("{}: program does not link:\n{}", label, log.c_str());
+}
+
+// Binaries that this driver takes; none where it hands none out, as Mesa does while its own cache is off.
+std::vector<GLint> binary_formats() {
+    GLint count = 0;
+    glGetIntegerv(GL_NUM_PROGRAM_BINARY_FORMATS, &count);
+    std::vector<GLint> formats(static_cast<std::size_t>(std::max(count, 0)));
+    if (count > 0) glGetIntegerv(GL_PROGRAM_BINARY_FORMATS, formats.data());
+    return formats;
+}
+
+// Everything that the binary follows from.
+std::string cache_key(const std::vector<Stage>& stages) {
+    const DriverInfo driver = driver_info();
+    std::string key =
+        fmt::format("tarn {}\n{}\n{}\n{}\n", TARN_VERSION, driver.vendor, driver.renderer, driver.version);
+    for (const Stage& stage : stages) key += fmt::format("stage {:#x}\n{}", stage.type, stage.source.text);
+    return key;
+}
+
+// True where `program` is now what the cache held for `key`.
+bool load(GLuint program, const ProgramCache& cache, const std::string& key,
+          const std::vector<GLint>& formats) {
+    const auto binary = cache.find(key);
+    if (!binary) return false;
+    const bool known =
+        std::find(formats.begin(), formats.end(), static_cast<GLint>(binary->format)) != formats.end();
+    if (known)
+        glProgramBinary(program, binary->format, binary->bytes.data(),
+                        static_cast<GLsizei>(binary->bytes.size()));
+    if (known && is_linked(program)) return true;
+    cache.forget(key);
+    return false;
+}
+
+void keep(GLuint program, const ProgramCache& cache, const std::string& key) {
+    GLint length = 0;
+    glGetProgramiv(program, GL_PROGRAM_BINARY_LENGTH, &length);
+    if (length <= 0) return;
+    ProgramBinary binary;
+    binary.bytes.resize(static_cast<std::size_t>(length));
+    GLsizei written = 0;
+    glGetProgramBinary(program, length, &written, &binary.format, binary.bytes.data());
+    binary.bytes.resize(static_cast<std::size_t>(std::max(written, 0)));
+    cache.keep(key, binary);
+}
+
+Built build(const ProgramDesc& desc) {
+    std::vector<Stage> stages;
+    if (!desc.compute.empty()) {
+        stages.push_back({GL_COMPUTE_SHADER, shader_text(desc.compute, desc.defines)});
+    } else {
+        stages.push_back({GL_VERTEX_SHADER, shader_text(desc.vertex, desc.defines)});
+        stages.push_back({GL_FRAGMENT_SHADER, shader_text(desc.fragment, desc.defines)});
+    }
+    Built built{glCreateProgram(), {}, false};
+    for (const Stage& stage : stages)
+        built.files.insert(built.files.end(), stage.source.files.begin(), stage.source.files.end());
+    const ProgramCache cache(program_cache_folder());
+    const std::vector<GLint> formats = binary_formats();
+    const std::string key = formats.empty() ? std::string() : cache_key(stages);
+    built.was_cached = !formats.empty() && load(built.name, cache, key, formats);
+    if (!built.was_cached) {
+        try {
+            compile_and_link(built.name, stages, desc.label);
+        } catch (...) {
+            glDeleteProgram(built.name);
+            throw;
         }
-        glLinkProgram(built.name);
-        GLint ok = 0;
-        glGetProgramiv(built.name, GL_LINK_STATUS, &ok);
-        if (ok == 0) {
-            GLint length = 0;
-            glGetProgramiv(built.name, GL_INFO_LOG_LENGTH, &length);
-            std::string log(static_cast<std::size_t>(std::max(length, 1)), '\0');
-            glGetProgramInfoLog(built.name, length, nullptr, log.data());
-            fail("{}: program does not link:\n{}", desc.label, log.c_str());
-        }
-    } catch (...) {
-        glDeleteProgram(built.name);
-        throw;
+        if (!formats.empty()) keep(built.name, cache, key);
     }
     glObjectLabel(GL_PROGRAM, built.name, -1, desc.label);
     return built;
@@ -133,6 +200,7 @@ Program::Program(ProgramDesc desc) : desc_(std::move(desc)) {
     name_ = built.name;
     files_ = std::move(built.files);
     stamp_ = newest(files_);
+    was_cached_ = built.was_cached;
 }
 
 Program::~Program() {
@@ -144,6 +212,7 @@ Program::Program(Program&& other) noexcept
       name_(std::exchange(other.name_, 0)),
       files_(std::move(other.files_)),
       stamp_(other.stamp_),
+      was_cached_(other.was_cached_),
       locations_(std::move(other.locations_)) {}
 
 Program& Program::operator=(Program&& other) noexcept {
@@ -151,6 +220,7 @@ Program& Program::operator=(Program&& other) noexcept {
     std::swap(name_, other.name_);
     std::swap(files_, other.files_);
     std::swap(stamp_, other.stamp_);
+    std::swap(was_cached_, other.was_cached_);
     std::swap(locations_, other.locations_);
     return *this;
 }
@@ -214,6 +284,7 @@ std::optional<std::string> Program::poll_reload() {
         }
         glDeleteProgram(std::exchange(name_, built.name));
         files_ = std::move(built.files);
+        was_cached_ = built.was_cached;
         locations_.clear();
         return "";
     } catch (const Error& error) {

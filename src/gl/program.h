@@ -41,6 +41,8 @@ class Program {
 
     GLuint name() const { return name_; }
     const char* label() const { return desc_.label; }
+    // Not compiled but loaded as the driver linked it in an earlier run.
+    bool was_cached() const { return was_cached_; }
     void use() const { glUseProgram(name_); }
 
     // Runs `groups` workgroups; the program is a compute program.
@@ -70,6 +72,7 @@ class Program {
     GLuint name_ = 0;
     std::vector<std::string> files_;
     std::int64_t stamp_ = 0;
+    bool was_cached_ = false;
     mutable std::unordered_map<std::string, GLint> locations_;
 };
 

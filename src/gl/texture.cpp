@@ -1,13 +1,14 @@
 #include "gl/texture.h"
 
 #include <algorithm>
+#include <bit>
 #include <utility>
 
 #include "core/error.h"
 
 namespace tarn::gl {
 
-Texture::Texture(const TextureDesc& desc) : format_(desc.format), size_(desc.size) {
+Texture::Texture(const TextureDesc& desc) : format_(desc.format), size_(desc.size), linear_(desc.linear) {
     const bool volume = size_.z > 0;
     CHECK(size_.x > 0 && size_.y > 0);
     glCreateTextures(volume ? GL_TEXTURE_3D : GL_TEXTURE_2D, 1, &name_);
@@ -32,13 +33,27 @@ Texture::~Texture() {
 }
 
 Texture::Texture(Texture&& other) noexcept
-    : name_(std::exchange(other.name_, 0)), format_(other.format_), size_(other.size_) {}
+    : name_(std::exchange(other.name_, 0)),
+      format_(other.format_),
+      size_(other.size_),
+      linear_(other.linear_) {}
 
 Texture& Texture::operator=(Texture&& other) noexcept {
     std::swap(name_, other.name_);
     std::swap(format_, other.format_);
     std::swap(size_, other.size_);
+    std::swap(linear_, other.linear_);
     return *this;
+}
+
+TextureDesc Texture::small_like() const {
+    const auto side = [](int px) {
+        return px > 1 ? std::has_single_bit(static_cast<unsigned>(px)) ? 2 : 3 : px;
+    };
+    return {.label = "small",
+            .format = format_,
+            .size = {side(size_.x), side(size_.y), side(size_.z)},
+            .linear = linear_};
 }
 
 void Texture::bind(GLuint unit) const {

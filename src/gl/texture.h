@@ -30,6 +30,8 @@ class Texture {
     glm::ivec3 size() const { return size_; }  // z = 0 for 2D
     GLenum format() const { return format_; }
     explicit operator bool() const { return name_ != 0; }
+    // A small one for which drivers compile the same code: llvmpipe asks which sides are powers of two.
+    TextureDesc small_like() const;
 
     void bind(GLuint unit) const;
     void bind_image(GLuint unit, GLenum access) const;
@@ -64,6 +66,7 @@ class Texture {
     GLuint name_ = 0;
     GLenum format_ = 0;
     glm::ivec3 size_{0};
+    bool linear_ = false;
 };
 
 }  // namespace tarn::gl

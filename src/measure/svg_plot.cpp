@@ -12,33 +12,12 @@ namespace tarn {
 namespace {
 
 // In px of the picture.
-constexpr double panel_width = 420, panel_height = 300;
 constexpr double margin_left = 64, margin_right = 16, margin_top = 30, margin_bottom = 46;
 constexpr double head_height = 54;
 
 // Okabe and Ito's colours, told apart by colour-blind readers; without yellow, which is faint on white.
 constexpr const char* colors[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                   "#56b4e9", "#e69f00", "#000000"};
-
-std::string escaped(const std::string& text) {
-    std::string result;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                result += "&amp;";
-                break;
-            case '<':
-                result += "&lt;";
-                break;
-            case '>':
-                result += "&gt;";
-                break;
-            default:
-                result += c;
-        }
-    }
-    return result;
-}
 
 // Maps data to px along one axis.
 struct Scale {
@@ -89,51 +68,41 @@ std::vector<glm::dvec2> thinned(const std::vector<glm::dvec2>& px) {
     return result;
 }
 
-std::string text_at(double x, double y, const char* anchor, const std::string& text, const char* more = "") {
-    return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", x, y, anchor, more,
-                       escaped(text));
-}
+constexpr const char* grid_color = "#e4e4e4";
 
-std::string line_at(double x1, double y1, double x2, double y2, const char* color, const char* more = "") {
-    return fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\"{}/>\n",
-                       x1, y1, x2, y2, color, more);
-}
-
-std::string axes_of(const PlotPanel& panel, const Scale& x, const Scale& y) {
-    std::string svg;
+void draw_axes(const PlotPanel& panel, const Scale& x, const Scale& y, Drawing& drawing) {
     for (const double tick : axis_ticks(x.low, x.high, x.log)) {
-        svg += line_at(x.px(tick), y.from_px, x.px(tick), y.to_px, "#e4e4e4");
-        svg += text_at(x.px(tick), y.from_px + 16, "middle", fmt::format("{:g}", tick));
+        drawing.line({x.px(tick), y.from_px}, {x.px(tick), y.to_px}, grid_color);
+        drawing.text({x.px(tick), y.from_px + 16}, fmt::format("{:g}", tick), Anchor::Middle);
     }
     for (const double tick : axis_ticks(y.low, y.high, y.log)) {
-        svg += line_at(x.from_px, y.px(tick), x.to_px, y.px(tick), "#e4e4e4");
-        svg += text_at(x.from_px - 6, y.px(tick) + 4, "end", fmt::format("{:g}", tick));
+        drawing.line({x.from_px, y.px(tick)}, {x.to_px, y.px(tick)}, grid_color);
+        drawing.text({x.from_px - 6, y.px(tick) + 4}, fmt::format("{:g}", tick), Anchor::End);
     }
-    svg += fmt::format(
-        "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"none\" "
-        "stroke=\"#444\"/>\n",
-        x.from_px, y.to_px, x.to_px - x.from_px, y.from_px - y.to_px);
-    svg += text_at((x.from_px + x.to_px) / 2, y.to_px - 10, "middle", panel.title, " font-weight=\"bold\"");
-    svg += text_at((x.from_px + x.to_px) / 2, y.from_px + 36, "middle", panel.x.label);
-    const double middle = (y.from_px + y.to_px) / 2;
-    const double left = x.from_px - 46;
-    const std::string turn = fmt::format(" transform=\"rotate(-90 {:.1f} {:.1f})\"", left, middle);
-    return svg + text_at(left, middle, "middle", panel.y.label, turn.c_str());
+    drawing.frame({x.from_px, y.to_px}, {x.to_px, y.from_px}, "#444444");
+    const double middle = (x.from_px + x.to_px) / 2;
+    drawing.text({middle, y.to_px - 10}, panel.title, Anchor::Middle, "#000000", true);
+    drawing.text({middle, y.from_px + 36}, panel.x.label, Anchor::Middle);
+    drawing.text({x.from_px - 46, (y.from_px + y.to_px) / 2}, panel.y.label, Anchor::Middle, "#000000", false,
+                 true);
 }
 
-std::string series_of(const PlotSeries& series, const Scale& x, const Scale& y, const char* color) {
+void draw_series(const PlotSeries& series, const Scale& x, const Scale& y, const char* color,
+                 Drawing& drawing) {
     std::vector<glm::dvec2> px;
-    for (const glm::dvec2& point : series.points)
-        if (std::isfinite(point.x) && std::isfinite(point.y)) px.push_back({x.px(point.x), y.px(point.y)});
-    std::string svg;
-    if (series.dots)
-        for (const glm::dvec2& p : px)
-            svg +=
-                fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2.5\" fill=\"{}\"/>\n", p.x, p.y, color);
-    if (!series.line || px.empty()) return svg;
-    svg += fmt::format("<polyline fill=\"none\" stroke=\"{}\" stroke-width=\"1.5\" points=\"", color);
-    for (const glm::dvec2& p : thinned(px)) svg += fmt::format("{:.1f},{:.1f} ", p.x, p.y);
-    return svg + "\"/>\n";
+    for (std::size_t i = 0; i < series.points.size(); ++i) {
+        const glm::dvec2& point = series.points[i];
+        if (!std::isfinite(point.x) || !std::isfinite(point.y)) continue;
+        px.push_back({x.px(point.x), y.px(point.y)});
+        if (series.dots) drawing.circle(px.back(), series.dot_radius, color, series.filled);
+        if (i < series.labels.size() && !series.labels[i].empty()) {
+            // Inside the frame, whichever side the point is on.
+            const bool right = px.back().x > (x.from_px + 2 * x.to_px) / 3;
+            drawing.text(px.back() + glm::dvec2(right ? -7 : 7, series.labels_below ? 16 : -6),
+                         series.labels[i], right ? Anchor::End : Anchor::Start, color);
+        }
+    }
+    if (series.line && !px.empty()) drawing.polyline(thinned(px), color, 1.5);
 }
 
 }  // namespace
@@ -145,6 +114,13 @@ std::vector<double> axis_ticks(double low, double high, bool log) {
     if (log) {
         for (double e = std::ceil(std::log10(low) - slack); e <= std::log10(high) + slack; ++e)
             ticks.push_back(std::pow(10.0, e));
+        if (high < 100 * low) {
+            for (double e = std::floor(std::log10(low)); e <= std::log10(high); ++e)
+                for (const double factor : {2.0, 5.0})
+                    if (const double tick = factor * std::pow(10.0, e); tick >= low && tick <= high)
+                        ticks.push_back(tick);
+            std::sort(ticks.begin(), ticks.end());
+        }
         return ticks;
     }
     constexpr double labels_wanted = 6;
@@ -158,7 +134,8 @@ std::vector<double> axis_ticks(double low, double high, bool log) {
     return ticks;
 }
 
-std::string svg_plot(std::span<const PlotPanel> panels, int columns, const std::string& caption) {
+Drawing draw_plot(std::span<const PlotPanel> panels, int columns, const std::string& caption,
+                  glm::dvec2 panel_px) {
     CHECK(columns > 0);
     std::vector<std::string> names;
     for (const PlotPanel& panel : panels)
@@ -172,17 +149,12 @@ std::string svg_plot(std::span<const PlotPanel> panels, int columns, const std::
     const auto count = static_cast<int>(panels.size());
     const int across = std::max(1, std::min(columns, count));
     const int down = (count + across - 1) / across;
-    std::string svg = fmt::format(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 "
-        "{0:.0f} "
-        "{1:.0f}\" font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"100%\" height=\"100%\" "
-        "fill=\"#fff\"/>\n",
-        across * panel_width, head_height + down * panel_height);
-    svg += text_at(margin_left, 20, "start", caption);
+    Drawing drawing({across * panel_px.x, head_height + down * panel_px.y});
+    drawing.text({margin_left, 20}, caption);
     double legend_x = margin_left;
     for (const std::string& name : names) {
-        svg += line_at(legend_x, 38, legend_x + 24, 38, color_of(name), " stroke-width=\"3\"");
-        svg += text_at(legend_x + 30, 42, "start", name);
+        drawing.line({legend_x, 38}, {legend_x + 24, 38}, color_of(name), 3);
+        drawing.text({legend_x + 30, 42}, name);
         // A generous width of a letter, so that names do not meet.
         legend_x += 54 + 7.5 * static_cast<double>(name.size());
     }
@@ -190,21 +162,25 @@ std::string svg_plot(std::span<const PlotPanel> panels, int columns, const std::
         const PlotPanel& panel = panels[i];
         const int column = i % across;
         const int row = i / across;
-        const double left = column * panel_width;
-        const double top = head_height + row * panel_height;
+        const double left = column * panel_px.x;
+        const double top = head_height + row * panel_px.y;
         const Scale x =
-            scale_of(panel.x, panel.series, 0, left + margin_left, left + panel_width - margin_right);
+            scale_of(panel.x, panel.series, 0, left + margin_left, left + panel_px.x - margin_right);
         const Scale y =
-            scale_of(panel.y, panel.series, 1, top + panel_height - margin_bottom, top + margin_top);
-        svg += axes_of(panel, x, y);
+            scale_of(panel.y, panel.series, 1, top + panel_px.y - margin_bottom, top + margin_top);
+        draw_axes(panel, x, y, drawing);
         for (const PlotLevel& level : panel.levels) {
-            svg += line_at(x.from_px, y.px(level.y), x.to_px, y.px(level.y), "#888",
-                           " stroke-dasharray=\"4 3\"");
-            svg += text_at(x.to_px - 4, y.px(level.y) - 4, "end", level.label, " fill=\"#666\"");
+            drawing.line({x.from_px, y.px(level.y)}, {x.to_px, y.px(level.y)}, "#888888", 1, true);
+            drawing.text({x.to_px - 4, y.px(level.y) - 4}, level.label, Anchor::End, "#666666");
         }
-        for (const PlotSeries& series : panel.series) svg += series_of(series, x, y, color_of(series.name));
+        for (const PlotSeries& series : panel.series)
+            draw_series(series, x, y, color_of(series.name), drawing);
     }
-    return svg + "</svg>\n";
+    return drawing;
+}
+
+std::string svg_plot(std::span<const PlotPanel> panels, int columns, const std::string& caption) {
+    return draw_plot(panels, columns, caption).svg();
 }
 
 }  // namespace tarn

@@ -1,9 +1,11 @@
-// Line plots as SVG text, several panels in one picture. Knows nothing of what it draws.
+// Plots of lines and dots, several panels in one drawing. Knows nothing of what it draws.
 #pragma once
 #include <glm/glm.hpp>
 #include <span>
 #include <string>
 #include <vector>
+
+#include "measure/drawing.h"
 
 namespace tarn {
 
@@ -14,6 +16,10 @@ struct PlotSeries {
         {};  // in order of x where `line`; those that are not finite are left out
     bool line = true;
     bool dots = false;
+    std::vector<std::string> labels = {};  // beside the points, in their order; may be fewer
+    bool labels_below = false;             // the points; else above
+    double dot_radius = 2.5;
+    bool filled = true;  // of the dots
 };
 
 struct PlotLevel {  // a horizontal line across the panel
@@ -35,9 +41,13 @@ struct PlotPanel {
     std::vector<PlotLevel> levels = {};
 };
 
+// `panel_px`: the size of a panel with its labels.
+Drawing draw_plot(std::span<const PlotPanel> panels, int columns, const std::string& caption,
+                  glm::dvec2 panel_px = {420, 300});
 std::string svg_plot(std::span<const PlotPanel> panels, int columns, const std::string& caption);
 
-// Where labels stand on an axis from `low` to `high`: decades, or steps of 1, 2 or 5 times one.
+// Where labels stand on an axis from `low` to `high`: decades (less than two: also twice and five times one),
+// or steps of 1, 2 or 5 times one.
 std::vector<double> axis_ticks(double low, double high, bool log);
 
 }  // namespace tarn

@@ -14,7 +14,8 @@ namespace tarn {
 namespace {
 
 constexpr std::size_t word = sizeof(std::uint32_t);
-constexpr std::size_t header_words = 4;  // WorkHeader of glsl/lib/work_list.glsl
+constexpr std::size_t header_words = 4;        // WorkHeader of glsl/lib/work_list.glsl
+constexpr std::size_t groups_per_row = 32768;  // WORK_GROUPS_PER_ROW there
 struct GridUniforms {
     const char *block, *offset, *count;
 };
@@ -25,6 +26,15 @@ constexpr std::array<std::uint32_t, header_words> empty_list{0, 0, 1, 0};
 
 std::size_t volume(glm::ivec3 size) {
     return std::size_t{1} * size.x * size.y * size.z;
+}
+
+// Of 32 bricks along x (lib/matter.glsl).
+struct MatterWord {
+    std::uint32_t moves, room;
+};
+constexpr int bricks_per_word = 32;
+glm::ivec3 words_of(glm::ivec3 size_bricks) {
+    return {(size_bricks.x + bricks_per_word - 1) / bricks_per_word, size_bricks.y, size_bricks.z};
 }
 
 gl::Buffer work_list(const char* label, std::size_t items) {
@@ -52,37 +62,44 @@ ActivityPass::ActivityPass(glm::ivec3 size_vox)
     : size_vox_(size_vox),
       size_bricks_(bricks_of(size_vox)),
       wake_({.label = "wake", .compute = "pass/activity_wake.comp"}),
+      blocks_program_({.label = "blocks", .compute = "pass/activity_blocks.comp"}),
+      all_blocks_program_(
+          {.label = "all blocks", .compute = "pass/activity_blocks.comp", .defines = {{"ALL", "1"}}}),
       touch_({.label = "touch", .compute = "pass/activity_touch.comp"}),
       changed_tick_("changed tick", volume(size_bricks_) * word),
       lists_{work_list("active bricks a", volume(size_bricks_)),
-             work_list("active bricks b", volume(size_bricks_))} {}
+             work_list("active bricks b", volume(size_bricks_))},
+      changes_(size_bricks_),
+      matter_("matter", sizeof(MatterWord) * volume(words_of(size_bricks_))) {}
 
 void ActivityPass::wake_all(std::uint32_t tick) {
     const std::size_t bricks = volume(size_bricks_);
     changed_tick_.upload(std::vector<std::uint32_t>(bricks, tick - 1));
     const auto count = static_cast<std::uint32_t>(bricks);
     const std::uint32_t groups = (count + ACTIVE_PER_GROUP - 1) / ACTIVE_PER_GROUP;
-    constexpr std::uint32_t groups_per_row = 32768;  // WORK_GROUPS_PER_ROW
-    std::vector<std::uint32_t> list{std::min(groups, groups_per_row),
-                                    (groups + groups_per_row - 1) / groups_per_row, 1, count};
+    constexpr auto row = static_cast<std::uint32_t>(groups_per_row);
+    std::vector<std::uint32_t> list{std::min(groups, row), (groups + row - 1) / row, 1, count};
     list.resize(header_words + bricks);
     std::iota(list.begin() + header_words, list.end(), 0u);
     lists_[next_].upload(list);
+    woken_tick_ = tick;
 }
 
 void ActivityPass::sleep_all(std::uint32_t tick) {
     changed_tick_.upload(std::vector<std::uint32_t>(volume(size_bricks_), tick - SLEEP_TICKS - 2));
     lists_[next_].upload(empty_list);
+    woken_tick_.reset();
 }
 
-void ActivityPass::touch(const std::vector<std::uint32_t>& bricks, std::uint32_t tick) {
+void ActivityPass::touch(const std::vector<std::uint32_t>& bricks, std::uint32_t tick, std::uint32_t version,
+                         const gl::Texture& brick_changed) {
     if (bricks.empty()) return;
     gl::Buffer touched("touched bricks", bricks.size() * word);
     touched.upload(bricks);
     touched.bind_storage(STORAGE_ACTIVE);
-    changed_tick_.bind_storage(STORAGE_CHANGED_TICK);
-    next().bind_storage(STORAGE_ACTIVE_NEXT);
-    touch_.set("tick", tick - 1);
+    bind(touch_, tick - 1);
+    brick_changed.bind_image(IMAGE_BRICK_CHANGED, GL_READ_WRITE);
+    touch_.set("version", version);
     touch_.set("count", static_cast<std::uint32_t>(bricks.size()));
     constexpr std::size_t row = 1024;
     const std::size_t groups = (bricks.size() + ACTIVE_PER_GROUP - 1) / ACTIVE_PER_GROUP;
@@ -100,6 +117,7 @@ void ActivityPass::make_room_for(std::span<const BlockGrid> grids) {
         marks += blocks;
         if (blocks <= blocks_capacity_[i]) continue;
         blocks_[i] = work_list("blocks", blocks);
+        awake_blocks_[i] = work_list("awake blocks", blocks);
         blocks_capacity_[i] = blocks;
         grown = true;
     }
@@ -110,23 +128,31 @@ void ActivityPass::make_room_for(std::span<const BlockGrid> grids) {
 void ActivityPass::begin_tick(std::uint32_t tick, std::span<const BlockGrid> grids) {
     CHECK(!grids.empty() && grids.size() <= grids_max);
     make_room_for(grids);
+    std::copy(grids.begin(), grids.end(), grids_.begin());
+    // The list of active bricks is that of all, and stays so.
+    if (all_awake(tick)) return;
+    woken_tick_.reset();
+
     const gl::Buffer& active = next();
     next_ = 1 - next_;
     lists_[next_].upload(empty_list);
-    for (std::size_t i = 0; i < grids.size(); ++i) blocks_[i].upload(empty_list);
-    block_marks_.clear();
-
+    if (++mark_ == 0) {
+        block_marks_.clear();
+        mark_ = 1;
+    }
     for (std::size_t i = 0; i < grids.size(); ++i) {
         const GridUniforms& names = grid_uniforms[i];
         wake_.set(names.block, grids[i].block_vox);
         wake_.set(names.offset, grids[i].offset_vox);
         wake_.set(names.count, grids[i].count(size_vox_));
-        blocks_[i].bind_storage(i == 0 ? STORAGE_BLOCKS : STORAGE_BLOCKS_WIDE);
+        awake_blocks_[i].upload(empty_list);
+        awake_blocks_[i].bind_storage(i == 0 ? STORAGE_AWAKE_BLOCKS : STORAGE_AWAKE_BLOCKS_WIDE);
     }
     wake_.set("size_vox", size_vox_);
     wake_.set("size_bricks", size_bricks_);
     wake_.set("grids", static_cast<int>(grids.size()));
     wake_.set("tick", tick);
+    wake_.set("mark", mark_);
     active.bind_storage(STORAGE_ACTIVE);
     next().bind_storage(STORAGE_ACTIVE_NEXT);
     changed_tick_.bind_storage(STORAGE_CHANGED_TICK);
@@ -134,14 +160,38 @@ void ActivityPass::begin_tick(std::uint32_t tick, std::span<const BlockGrid> gri
     dispatch_indirect(wake_, active);
 }
 
+void ActivityPass::list_blocks(std::size_t grid, std::uint32_t tick) {
+    const bool all = all_awake(tick);
+    const gl::Program& program = all ? all_blocks_program_ : blocks_program_;
+    program.set("block_vox", grids_[grid].block_vox);
+    program.set("offset_vox", grids_[grid].offset_vox);
+    program.set("count_blocks", grids_[grid].count(size_vox_));
+    program.set("size_vox", size_vox_);
+    blocks_[grid].upload(empty_list);
+    blocks_[grid].bind_storage(STORAGE_BLOCKS);
+    matter_.bind_storage(STORAGE_MATTER);
+    if (!all) {
+        awake_blocks_[grid].bind_storage(STORAGE_AWAKE_BLOCKS);
+        dispatch_indirect(program, awake_blocks_[grid]);
+        return;
+    }
+    const std::size_t groups =
+        (volume(grids_[grid].count(size_vox_)) + ACTIVE_PER_GROUP - 1) / ACTIVE_PER_GROUP;
+    program.dispatch({std::min(groups, groups_per_row), (groups + groups_per_row - 1) / groups_per_row, 1});
+    barrier();
+}
+
 void ActivityPass::bind(const gl::Program& program, std::uint32_t tick) const {
     program.set("size_bricks", size_bricks_);
     program.set("tick", tick);
     changed_tick_.bind_storage(STORAGE_CHANGED_TICK);
     next().bind_storage(STORAGE_ACTIVE_NEXT);
+    changes_.bind();
+    matter_.bind_storage(STORAGE_MATTER);
 }
 
-void ActivityPass::run_blocks(const gl::Program& program, int grid, std::uint32_t tick) const {
+void ActivityPass::run_blocks(const gl::Program& program, std::size_t grid, std::uint32_t tick) {
+    list_blocks(grid, tick);
     bind(program, tick);
     blocks_[grid].bind_storage(STORAGE_BLOCKS);
     dispatch_indirect(program, blocks_[grid]);
@@ -159,7 +209,7 @@ void ActivityPass::copy_active_bricks(const gl::Buffer& to, std::size_t offset_b
 }
 
 void ActivityPass::poll_reload(std::vector<std::string>& messages) {
-    for (gl::Program* program : {&wake_, &touch_})
+    for (gl::Program* program : {&wake_, &blocks_program_, &all_blocks_program_, &touch_})
         if (auto message = program->poll_reload()) messages.push_back(*message);
 }
 

@@ -24,7 +24,7 @@ void BlockStepPass::record(const Inputs& in, const Outputs& out) const {
     program_.set("film_threshold", in.film_threshold);
     program_.set("version", in.version);
     out.cells.bind_image(IMAGE_CELLS, GL_READ_WRITE);
-    out.brick_changed.bind_image(IMAGE_BRICK_CHANGED, GL_WRITE_ONLY);
+    out.brick_changed.bind_image(IMAGE_BRICK_CHANGED, GL_READ_WRITE);
     in.activity.run_blocks(program_, 0, in.tick);
 }
 

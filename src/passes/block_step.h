@@ -14,9 +14,9 @@ class BlockStepPass {
   public:
     struct Inputs {
         std::uint32_t seed, tick;
-        int film_threshold;            // quanta
-        std::uint32_t version;         // stamped on bricks whose cells change
-        const ActivityPass& activity;  // begun for this tick with the grid below
+        int film_threshold;      // quanta
+        std::uint32_t version;   // stamped on bricks whose cells change
+        ActivityPass& activity;  // begun for this tick with the grid below
     };
     struct Outputs {
         gl::Texture& cells;          // R8UI

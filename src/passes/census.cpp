@@ -3,6 +3,7 @@
 #include <array>
 
 #include "core/error.h"
+#include "passes/bricks.h"
 #include "shared/bindings.h"
 
 namespace tarn {
@@ -10,26 +11,50 @@ namespace tarn {
 namespace {
 
 constexpr std::size_t bytes = 256;  // that a cell can hold
+constexpr std::size_t word = sizeof(std::uint32_t);
+constexpr std::array<std::uint32_t, 4> empty_list{0, 0, 1, 0};  // WorkHeader of glsl/lib/work_list.glsl
+
+std::size_t tiles_of(glm::ivec3 size_vox) {
+    const glm::ivec3 tiles = (size_vox + CENSUS_TILE - 1) / CENSUS_TILE;
+    return std::size_t{1} * tiles.x * tiles.y * tiles.z;
+}
 
 }  // namespace
 
-CensusPass::CensusPass()
-    : program_({.label = "census", .compute = "pass/census.comp"}),
-      counts_("cell counts", (bytes + 1) * sizeof(std::uint32_t)) {}
+CensusPass::CensusPass(glm::ivec3 size_vox)
+    : tiles_program_({.label = "census tiles", .compute = "pass/census_tiles.comp"}),
+      count_program_({.label = "census", .compute = "pass/census.comp"}),
+      counts_("cell counts", bytes * word),
+      stale_tiles_("stale tiles", (empty_list.size() + tiles_of(size_vox)) * word),
+      tile_listed_("tile listed", tiles_of(size_vox) * word),
+      tile_counts_("tile counts", tiles_of(size_vox) * bytes * word),
+      result_("cell counts, to be read", (bytes + 1) * word) {}
 
 CensusPass::~CensusPass() {
     if (fence_ != nullptr) glDeleteSync(fence_);
 }
 
-void CensusPass::record(const gl::Texture& cells, const ActivityPass& activity, gl::Timers& timers) {
+void CensusPass::record(const Inputs& in, gl::Timers& timers) {
     CHECK(!pending());
     const auto scope = timers.scope("census");
-    counts_.clear();
+    const ChangeLog& changes = in.activity.changes();
+    reader_.read(changes, in.version);
+    stale_tiles_.upload(empty_list);
     counts_.bind_storage(0);
-    cells.bind(BINDING_CELLS);
-    program_.dispatch_for(cells.size(), {8, 32, 8});
-    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-    activity.copy_active_bricks(counts_, bytes * sizeof(std::uint32_t));
+    stale_tiles_.bind_storage(STORAGE_STALE_TILES);
+    tile_listed_.bind_storage(STORAGE_TILE_LISTED);
+    tile_counts_.bind_storage(STORAGE_TILE_COUNTS);
+    in.cells.bind(BINDING_CELLS);
+    tiles_program_.set("size_bricks", bricks_of(in.cells.size()));
+    reader_.run(tiles_program_, changes);
+    glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+    count_program_.use();
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, stale_tiles_.name());
+    glDispatchComputeIndirect(0);
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+    glCopyNamedBufferSubData(counts_.name(), result_.name(), 0, 0, bytes * word);
+    in.activity.copy_active_bricks(result_, bytes * word);
     fence_ = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
 }
 
@@ -40,13 +65,19 @@ std::optional<CensusPass::Counts> CensusPass::take() {
     glDeleteSync(fence_);
     fence_ = nullptr;
     std::array<std::uint32_t, bytes + 1> counts{};
-    counts_.download(std::span<std::uint32_t>(counts));
+    result_.download(std::span<std::uint32_t>(counts));
     Census census;
     for (std::uint32_t byte = 0; byte < bytes; ++byte) {
         census.voxels[material_of(byte)] += counts[byte];
         census.water_quanta += std::uint64_t{quanta_of(byte)} * counts[byte];
     }
     return Counts{census, counts[bytes]};
+}
+
+void CensusPass::poll_reload(std::vector<std::string>& messages) {
+    if (auto message = reader_.poll_reload()) messages.push_back(*message);
+    for (gl::Program* program : {&tiles_program_, &count_program_})
+        if (auto message = program->poll_reload()) messages.push_back(*message);
 }
 
 }  // namespace tarn

@@ -1,10 +1,12 @@
-// Counts the cells of every byte on the GPU and hands the counts over frames later, without waiting, together
-// with how many bricks are active (glsl/pass/census.comp). Owns its program, its counters and the fence.
+// Counts the cells of every byte on the GPU, anew only in tiles where some changed, and hands the counts over
+// frames later, without waiting, together with how many bricks are active (glsl/pass/census*.comp). Owns its
+// programs, its counters and the fence.
 #pragma once
 #include <glad/gl.h>
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "gl/buffer.h"
 #include "gl/program.h"
@@ -17,7 +19,7 @@ namespace tarn {
 
 class CensusPass {
   public:
-    CensusPass();
+    explicit CensusPass(glm::ivec3 size_vox);
     ~CensusPass();
     CensusPass(const CensusPass&) = delete;
     CensusPass& operator=(const CensusPass&) = delete;
@@ -27,15 +29,23 @@ class CensusPass {
         Census census;
         std::uint32_t active_bricks = 0;
     };
-    // Starts a count of `cells` (R8UI); none is pending.
-    void record(const gl::Texture& cells, const ActivityPass& activity, gl::Timers& timers);
+    struct Inputs {
+        const gl::Texture& cells;  // R8UI
+        const ActivityPass& activity;
+        std::uint32_t version;  // of the world
+    };
+    // Starts a count; none is pending.
+    void record(const Inputs& in, gl::Timers& timers);
     // The counts once they have arrived; ends `pending`.
     std::optional<Counts> take();
-    std::optional<std::string> poll_reload() { return program_.poll_reload(); }
+    void poll_reload(std::vector<std::string>& messages);
 
   private:
-    gl::Program program_;
-    gl::Buffer counts_;
+    ChangeReader reader_;
+    gl::Program tiles_program_, count_program_;
+    gl::Buffer counts_;  // of the world, always those of the last record()
+    gl::Buffer stale_tiles_, tile_listed_, tile_counts_;
+    gl::Buffer result_;  // counts as they were recorded, then active bricks
     GLsync fence_ = nullptr;
 };
 

@@ -21,8 +21,7 @@ std::size_t emitter_node_count(const EmitterTreeHead& head) {
 }
 
 EmittersPass::EmittersPass(glm::ivec3 size_bricks)
-    : size_bricks_(size_bricks),
-      head_(emitter_tree_head(size_bricks)),
+    : head_(emitter_tree_head(size_bricks)),
       bricks_program_({.label = "emitter bricks", .compute = "pass/emitter_bricks.comp"}),
       tree_program_({.label = "emitter tree", .compute = "pass/emitter_tree.comp"}),
       tree_("emitter tree", sizeof(EmitterTreeHead) + sizeof(float) * emitter_node_count(head_)),
@@ -34,14 +33,12 @@ EmittersPass::EmittersPass(glm::ivec3 size_bricks)
 void EmittersPass::record(const Inputs& in, gl::Timers& timers) {
     if (seen_any_ && in.version == seen_version_) return;
     const auto scope = timers.scope("emitters");
+    reader_.read(in.changes, in.version);
     groups_.clear();
     bind();
     groups_.bind_storage(STORAGE_EMITTER_GROUPS);
     in.cells.bind(BINDING_CELLS);
-    in.brick_changed.bind(BINDING_BRICK_CHANGED);
-    bricks_program_.set("seen_version", seen_version_);
-    bricks_program_.set("everything", seen_any_ ? 0 : 1);
-    bricks_program_.dispatch_for(size_bricks_, {8, 8, 1});
+    reader_.run(bricks_program_, in.changes);
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, groups_.name());
     for (int level = 1; level < head_.depth.x; ++level) {
         glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
@@ -61,12 +58,14 @@ void EmittersPass::bind() const {
 }
 
 void EmittersPass::poll_reload(std::vector<std::string>& messages) {
+    if (auto message = reader_.poll_reload()) messages.push_back(*message);
     for (gl::Program* program : {&bricks_program_, &tree_program_})
         if (auto message = program->poll_reload()) {
             messages.push_back(*message);
             tree_.clear();
             tree_.upload(std::span(&head_, 1));
             masks_.clear();
+            reader_.restart();
             seen_any_ = false;
         }
 }

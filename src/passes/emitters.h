@@ -11,6 +11,7 @@
 #include "gl/program.h"
 #include "gl/texture.h"
 #include "gl/timers.h"
+#include "passes/changes.h"
 #include "shared/emitters.h"
 
 namespace tarn {
@@ -28,14 +29,15 @@ std::size_t emitter_node_count(const EmitterTreeHead& head);
 class EmittersPass {
   public:
     struct Inputs {
-        const gl::Texture& cells;          // R8UI
-        const gl::Texture& brick_changed;  // R32UI
-        std::uint32_t version;             // of the world: the youngest stamp in brick_changed
+        const gl::Texture& cells;  // R8UI
+        const ChangeLog& changes;
+        std::uint32_t version;  // of the world
     };
 
     explicit EmittersPass(glm::ivec3 size_bricks);
 
-    // Looks at the bricks stamped since the last call, at all in the first. The materials' block is bound.
+    // Looks at the bricks that changed since the last call, at all in the first. The materials' block is
+    // bound.
     void record(const Inputs& in, gl::Timers& timers);
     // For a program with lib/emitters.glsl.
     void bind() const;
@@ -44,8 +46,8 @@ class EmittersPass {
     void poll_reload(std::vector<std::string>& messages);
 
   private:
-    glm::ivec3 size_bricks_;
     EmitterTreeHead head_;
+    ChangeReader reader_;
     gl::Program bricks_program_, tree_program_;
     gl::Buffer tree_, masks_, groups_;
     std::uint32_t seen_version_ = 0;

@@ -45,7 +45,7 @@ void FlowPass::dispatch(const gl::Program& program, const Box& region, const Inp
     program.set("version", in.version);
     in.activity.bind(program, in.tick);
     out.cells.bind_image(IMAGE_CELLS, GL_READ_WRITE);
-    out.brick_changed.bind_image(IMAGE_BRICK_CHANGED, GL_WRITE_ONLY);
+    out.brick_changed.bind_image(IMAGE_BRICK_CHANGED, GL_READ_WRITE);
     counters_.bind_storage(0);
     program.dispatch_for(region.size(), {8, 4, 8});
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |

@@ -31,10 +31,10 @@ void LevelStepPass::record(const Inputs& in, const Outputs& out) {
     const glm::ivec3 size_vox = out.cells.size();
     const std::array<BlockGrid, 2> of_tick = grids(in.seed, in.tick);
     out.cells.bind_image(IMAGE_CELLS, GL_READ_WRITE);
-    out.brick_changed.bind_image(IMAGE_BRICK_CHANGED, GL_WRITE_ONLY);
+    out.brick_changed.bind_image(IMAGE_BRICK_CHANGED, GL_READ_WRITE);
     if (out.acting_head != nullptr) out.acting_head->bind_image(IMAGE_ACTING_HEAD, GL_READ_WRITE);
     run.tall.set("diagonal", hash2(in.seed ^ SALT_DIAGONAL, in.tick) % 3 == 0 ? 1 : 0);
-    for (int grid = 0; grid < 2; ++grid) {
+    for (std::size_t grid = 0; grid < 2; ++grid) {
         const gl::Program& program = grid == 0 ? run.tall : run.wide;
         program.set("size_vox", size_vox);
         program.set("offset_vox", of_tick[grid].offset_vox);

@@ -16,9 +16,9 @@ class LevelStepPass {
   public:
     struct Inputs {
         std::uint32_t seed, tick;
-        int film_threshold;            // quanta
-        std::uint32_t version;         // stamped on bricks whose cells change
-        const ActivityPass& activity;  // begun for this tick with the grids below
+        int film_threshold;      // quanta
+        std::uint32_t version;   // stamped on bricks whose cells change
+        ActivityPass& activity;  // begun for this tick with the grids below
     };
     struct Outputs {
         gl::Texture& cells;          // R8UI

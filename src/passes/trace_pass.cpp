@@ -2,10 +2,15 @@
 
 #include "core/error.h"
 #include "shared/bindings.h"
+#include "shared/frame.h"
+#include "shared/materials.h"
 
 namespace tarn {
 
 namespace {
+
+constexpr std::size_t materials_bytes =
+    std::size_t{MATERIAL_COUNT} * 3 * sizeof(glm::vec4);  // lib/materials.glsl
 
 gl::ProgramDesc describe(const TraceFeatures& features) {
     gl::ProgramDesc desc{.label = "trace",
@@ -20,11 +25,9 @@ gl::ProgramDesc describe(const TraceFeatures& features) {
     define(features.clear, "TRACE_CLEAR");
     define(features.rough, "TRACE_ROUGH");
     define(features.coated, "TRACE_COATED");
-    define(features.metal, "TRACE_METAL");
     define(features.sun, "TRACE_SUN");
     define(features.sky, "TRACE_SKY");
     define(features.emitters, "TRACE_EMITTERS");
-    define(features.clear_sky, "TRACE_PREETHAM");
     define(features.smooth_water, "TRACE_SMOOTH_WATER");
     define(features.count, "TRACE_COUNT");
     return desc;
@@ -34,17 +37,15 @@ gl::ProgramDesc describe(const TraceFeatures& features) {
 
 TracePass::TracePass(const TraceFeatures& features) : features_(features), program_(describe(features)) {}
 
-void TracePass::record(const Inputs& inputs, const Outputs& outputs, gl::Timers& timers) const {
-    const auto scope = timers.scope("trace");
+void TracePass::draw(const Inputs& inputs, const gl::Framebuffer& target) const {
     inputs.cells.bind(BINDING_CELLS);
     if (features_.skip) inputs.brick_distance.bind(BINDING_BRICK_DISTANCE);
-    if (features_.coated) inputs.albedo_table.bind(BINDING_ALBEDO_TABLE);
-    if (features_.metal) inputs.metal_albedo_table.bind(BINDING_METAL_ALBEDO_TABLE);
-    if (features_.rough) inputs.glass_albedo_table.bind(BINDING_GLASS_ALBEDO_TABLE);
-    if (features_.emitters) {
-        CHECK(inputs.emitters != nullptr);
-        inputs.emitters->bind();
+    if (features_.coated) {
+        inputs.albedo_table.bind(BINDING_ALBEDO_TABLE);
+        inputs.metal_albedo_table.bind(BINDING_METAL_ALBEDO_TABLE);
     }
+    if (features_.rough) inputs.glass_albedo_table.bind(BINDING_GLASS_ALBEDO_TABLE);
+    if (inputs.emitters != nullptr) inputs.emitters->bind();
     inputs.rejected.bind_storage(0);
     if (features_.clear) {
         inputs.brick_changed.bind(BINDING_BRICK_CHANGED);
@@ -52,7 +53,51 @@ void TracePass::record(const Inputs& inputs, const Outputs& outputs, gl::Timers&
     }
     program_.set("stride", inputs.stride);
     program_.use();
-    outputs.target.draw_fullscreen();
+    target.draw_fullscreen();
+}
+
+void TracePass::record(const Inputs& inputs, const Outputs& outputs, gl::Timers& timers) const {
+    CHECK(!features_.emitters || inputs.emitters != nullptr);
+    const auto scope = timers.scope("trace");
+    draw(inputs, outputs.target);
+}
+
+void TracePass::rehearse(const TraceShapes& shapes) const {
+    // Nothing but zeros, and so no samples in a pixel.
+    const gl::Buffer frame("rehearsal: frame", sizeof(FrameBlock));
+    const gl::Buffer materials("rehearsal: materials", materials_bytes);
+    const gl::Buffer emitters("rehearsal: emitters", sizeof(EmitterTreeHead) + sizeof(glm::vec4));
+    const gl::Buffer rejected("rehearsal: rejected", sizeof(std::uint32_t));
+    frame.bind_uniform(BINDING_FRAME);
+    materials.bind_uniform(BINDING_MATERIALS);
+    emitters.bind_storage(STORAGE_EMITTER_TREE);
+    emitters.bind_storage(STORAGE_EMITTER_MASKS);
+    const std::array<gl::Texture, 2> targets{gl::Texture(shapes.targets[0]), gl::Texture(shapes.targets[1])};
+    const gl::Framebuffer target("rehearsal", {&targets[0], &targets[1]});
+    const gl::Texture cells(shapes.cells);
+    const gl::Texture brick_distance(shapes.brick_distance);
+    const gl::Texture brick_changed(shapes.brick_changed);
+    const gl::Texture albedo_table(shapes.albedo_table);
+    const gl::Texture metal_albedo_table(shapes.metal_albedo_table);
+    const gl::Texture glass_albedo_table(shapes.glass_albedo_table);
+    draw({.cells = cells,
+          .brick_distance = brick_distance,
+          .albedo_table = albedo_table,
+          .metal_albedo_table = metal_albedo_table,
+          .glass_albedo_table = glass_albedo_table,
+          .emitters = nullptr,
+          .rejected = rejected,
+          .brick_changed = brick_changed,
+          .still_since = 0},
+         target);
+    if (features_.emitters) {
+        gl::Timers timers;
+        const glm::ivec3 size_bricks{2};
+        EmittersPass(size_bricks)
+            .record({.cells = cells, .changes = ChangeLog(size_bricks), .version = 1}, timers);
+        timers.finish();
+    }
+    glFinish();
 }
 
 }  // namespace tarn

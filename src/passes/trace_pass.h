@@ -1,5 +1,6 @@
 // Paths of one frame: radiance and the surface seen, per pixel. glsl/pass/trace.frag.
 #pragma once
+#include <array>
 #include <compare>
 
 #include "gl/buffer.h"
@@ -17,14 +18,19 @@ struct TraceFeatures {
     bool clear = false;         // water or glass
     bool rough = false;         // some of it rough
     bool coated = false;        // opaque materials with an interface, metals
-    bool metal = false;         // metals among them
     bool sun = false;           // sampled
     bool sky = false;           // sampled
     bool emitters = false;      // emissive voxels, sampled
-    bool clear_sky = false;     // of Preetham, Shirley & Smits; otherwise two colours
     bool smooth_water = false;  // levels of neighbouring voxels shaded as one surface; with clear
     bool count = false;         // bounces and steps, for views
     auto operator<=>(const TraceFeatures&) const = default;
+};
+
+// What a driver's code for the pass may depend on beside its features.
+struct TraceShapes {
+    gl::TextureDesc cells, brick_distance, brick_changed, albedo_table, metal_albedo_table,
+        glass_albedo_table;
+    std::array<gl::TextureDesc, 2> targets;  // radiance, surface
 };
 
 class TracePass {
@@ -47,9 +53,16 @@ class TracePass {
 
     explicit TracePass(const TraceFeatures& features);
     void record(const Inputs& inputs, const Outputs& outputs, gl::Timers& timers) const;
+    // Draws one pixel of no world, as record() would one of a world of these shapes: some drivers compile at
+    // the first draw only, and may share what they made with other contexts. So for the emitters that its
+    // features ask for. Features without count.
+    void rehearse(const TraceShapes& shapes) const;
+    const TraceFeatures& features() const { return features_; }
     gl::Program& program() { return program_; }
 
   private:
+    void draw(const Inputs& inputs, const gl::Framebuffer& target) const;
+
     TraceFeatures features_;
     gl::Program program_;
 };

@@ -11,6 +11,35 @@ namespace tarn {
 
 namespace {
 
+constexpr EGLint context_attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
+                                         4,
+                                         EGL_CONTEXT_MINOR_VERSION,
+                                         5,
+                                         EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                         EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                         EGL_CONTEXT_OPENGL_DEBUG,
+                                         EGL_TRUE,
+                                         EGL_NONE};
+
+class SharedEglContext : public gl::SharedContext {
+  public:
+    SharedEglContext(EGLDisplay display, EGLContext context) : display_(display), context_(context) {}
+    ~SharedEglContext() override { eglDestroyContext(display_, context_); }
+    SharedEglContext(const SharedEglContext&) = delete;
+    SharedEglContext& operator=(const SharedEglContext&) = delete;
+    void make_current() override {
+        // The API is bound by thread.
+        if (eglBindAPI(EGL_OPENGL_API) == EGL_FALSE ||
+            eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_FALSE)
+            fail("EGL: cannot use the shared context (error {:#x})", eglGetError());
+    }
+    void release() override { eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT); }
+
+  private:
+    EGLDisplay display_;
+    EGLContext context_;
+};
+
 class EglContext {
   public:
     EglContext() {
@@ -22,16 +51,7 @@ class EglContext {
                  eglGetError());
         if (eglBindAPI(EGL_OPENGL_API) == EGL_FALSE)
             fail("EGL: the driver has no desktop OpenGL; 4.5 core is needed");
-        const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
-                                     4,
-                                     EGL_CONTEXT_MINOR_VERSION,
-                                     5,
-                                     EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                     EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                     EGL_CONTEXT_OPENGL_DEBUG,
-                                     EGL_TRUE,
-                                     EGL_NONE};
-        context_ = eglCreateContext(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
+        context_ = eglCreateContext(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, context_attributes);
         if (context_ == EGL_NO_CONTEXT) {
             const EGLint error = eglGetError();
             fail_if_old();
@@ -49,6 +69,12 @@ class EglContext {
     }
     EglContext(const EglContext&) = delete;
     EglContext& operator=(const EglContext&) = delete;
+
+    std::unique_ptr<gl::SharedContext> make_shared() const {
+        const EGLContext shared = eglCreateContext(display_, EGL_NO_CONFIG_KHR, context_, context_attributes);
+        if (shared == EGL_NO_CONTEXT) return nullptr;
+        return std::make_unique<SharedEglContext>(display_, shared);
+    }
 
   private:
     // Throws the error that names the version where the driver has an OpenGL, but an older one.
@@ -79,6 +105,7 @@ class Headless : public Platform {
     void capture_mouse(bool /*captured*/) override {}
     void set_vsync(bool /*on*/) override {}
     void set_title(const std::string& /*title*/) override {}
+    std::unique_ptr<gl::SharedContext> make_shared_context() override { return context_.make_shared(); }
 
   private:
     EglContext context_;

@@ -115,18 +115,36 @@ class Library {
     static void require() { static const Library instance; }
 };
 
+void set_hints() {
+    glfwDefaultWindowHints();
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, GLFW_TRUE);
+    glfwWindowHint(GLFW_DEPTH_BITS, 0);
+    glfwWindowHint(GLFW_STENCIL_BITS, 0);
+    glfwWindowHint(GLFW_SRGB_CAPABLE, GLFW_FALSE);
+}
+
+// GLFW has no context without a window: this one is never shown.
+class SharedGlfwContext : public gl::SharedContext {
+  public:
+    explicit SharedGlfwContext(GLFWwindow* window) : window_(window) {}
+    ~SharedGlfwContext() override { glfwDestroyWindow(window_); }
+    SharedGlfwContext(const SharedGlfwContext&) = delete;
+    SharedGlfwContext& operator=(const SharedGlfwContext&) = delete;
+    void make_current() override { glfwMakeContextCurrent(window_); }
+    void release() override { glfwMakeContextCurrent(nullptr); }
+
+  private:
+    GLFWwindow* window_;
+};
+
 class WindowHandle {
   public:
     WindowHandle(glm::ivec2 size_px, const std::string& title) {
         Library::require();
-        glfwDefaultWindowHints();
-        glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
-        glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
-        glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-        glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, GLFW_TRUE);
-        glfwWindowHint(GLFW_DEPTH_BITS, 0);
-        glfwWindowHint(GLFW_STENCIL_BITS, 0);
-        glfwWindowHint(GLFW_SRGB_CAPABLE, GLFW_FALSE);
+        set_hints();
         last_glfw_error().clear();
         window_ = glfwCreateWindow(size_px.x, size_px.y, title.c_str(), nullptr, nullptr);
         if (window_ == nullptr)
@@ -243,6 +261,14 @@ class Window : public Platform {
 
     void set_title(const std::string& title) override { glfwSetWindowTitle(handle_.get(), title.c_str()); }
 
+    std::unique_ptr<gl::SharedContext> make_shared_context() override {
+        set_hints();
+        glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+        GLFWwindow* const hidden = glfwCreateWindow(1, 1, "Tarn: compiling", nullptr, handle_.get());
+        if (hidden == nullptr) return nullptr;
+        return std::make_unique<SharedGlfwContext>(hidden);
+    }
+
   private:
     static Window& of(GLFWwindow* window) { return *static_cast<Window*>(glfwGetWindowUserPointer(window)); }
 
@@ -250,6 +276,8 @@ class Window : public Platform {
         if (action == GLFW_RELEASE) return;
         if (code == GLFW_KEY_Q && (mods & GLFW_MOD_CONTROL) != 0)
             glfwSetWindowShouldClose(handle_.get(), GLFW_TRUE);
+        // Shift counts for the key pressed with it, also where both are up again by the next frame.
+        if ((mods & GLFW_MOD_SHIFT) != 0) pressed_[static_cast<std::size_t>(Key::Fast)] = true;
         for (const KeyBinding& binding : key_bindings) {
             if (binding.code != code || (action == GLFW_REPEAT && !repeats(binding.key))) continue;
             const bool redo = binding.key == Key::Undo && (mods & GLFW_MOD_SHIFT) != 0;

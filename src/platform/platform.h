@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "gl/context.h"
 #include "gl/texture.h"
 
 namespace tarn {
@@ -80,6 +81,8 @@ class Platform {
     virtual void capture_mouse(bool captured) = 0;
     virtual void set_vsync(bool on) = 0;
     virtual void set_title(const std::string& title) = 0;
+    // For a thread that compiles; null where the driver has none to share. The platform must outlive it.
+    virtual std::unique_ptr<gl::SharedContext> make_shared_context() = 0;
 };
 
 // Opens a window with an OpenGL 4.5 core context and ImGui. Throws Error where there is no display or no

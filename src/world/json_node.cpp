@@ -202,6 +202,11 @@ std::int64_t JsonNode::integer(std::int64_t min, std::int64_t max) const {
     return static_cast<std::int64_t>(number);
 }
 
+bool JsonNode::flag() const {
+    if (!value_->is_boolean()) refuse(fmt::format("{} where true or false is needed", got()), "true, false");
+    return value_->get<bool>();
+}
+
 std::string JsonNode::text() const {
     if (!value_->is_string()) refuse(fmt::format("{} where text is needed", got()), "text in quotes");
     return value_->get<std::string>();

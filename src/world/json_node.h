@@ -31,11 +31,13 @@ class JsonNode {
     JsonNode need(std::string_view key) const;                      // throws Error where it is missing
     std::vector<std::pair<std::string, JsonNode>> members() const;  // of an object
     std::vector<JsonNode> items() const;                            // of an array
+    bool is_array() const { return value_->is_array(); }
     const std::string& path() const { return path_; }
 
     // Each throws Error where type or range do not fit; ranges include both ends.
     double number(double min, double max) const;
     std::int64_t integer(std::int64_t min, std::int64_t max) const;
+    bool flag() const;  // true or false
     std::string text() const;
     glm::dvec2 vec2(double min, double max) const;
     glm::dvec3 vec3(double min, double max) const;

@@ -1,5 +1,6 @@
 #include "world/material_table.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
@@ -48,6 +49,10 @@ WaterView view_of(const Material& water) {
 }
 
 }  // namespace
+
+bool shines(const Material& material) {
+    return std::max({material.emission.x, material.emission.y, material.emission.z}) > 0;
+}
 
 MaterialTable default_materials() {
     MaterialTable table{};

@@ -24,6 +24,9 @@ struct Material {
 
 using MaterialTable = std::array<Material, MATERIAL_COUNT>;  // by id; water at MATERIAL_WATER
 
+// Whether it sends out light of its own.
+bool shines(const Material& material);
+
 MaterialTable default_materials();
 
 // The material's name ("stone"), or "" for an id without one.

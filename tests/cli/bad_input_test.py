@@ -19,7 +19,7 @@ class BadArguments(Case):
         for option in ("--camera", "--stats", "--out"):
             self.refuse(["render", "--scene", "flat", "--out", "x.png", option, ""], option, "empty")
         self.refuse(["water", "--tier", ""], "--tier", "empty")
-        self.refuse(["dig"], "dig", "play, render, simulate, water, light, bench, scenes, settings, doctor")
+        self.refuse(["dig"], "dig", "play, render, simulate, water, light, bench, tradeoff, scenes, settings, doctor")
         self.refuse(["render", "--scene", "flat"], "--out", "required")
         self.refuse(["simulate", "--scene", "flat"], "--ticks", "required")
         self.refuse(["simulate", "--ticks", "1"], "--scene", "required")
@@ -122,6 +122,32 @@ class BadScenes(Case):
         self.refuse_scene({"size": [8, 8, 8], "sun": {"irradiance": [-1, 0, 0]}}, "irradiance")
         self.refuse_scene({"size": [8, 8, 8],
                            "build": [{"box": {"min": [0, 0, 0], "max": [1, 1, 1], "material": "cheese"}}]}, "cheese")
+
+
+class BadRecordings(Case):
+    def refuse_recording(self, text, *words):
+        self.write("r.json", text if isinstance(text, str) else json.dumps(text))
+        self.refuse([*RENDER, "--out", "a.png", "--path", "r.json"], "r.json", *words)
+
+    def test_options(self):
+        self.refuse([*RENDER, "--out", "a.png", "--path", "walking"], "walking", "flying, moving-water, still", ".json")
+        self.refuse([*RENDER, "--out", "a.png", "--path", "none.json"], "none.json", "No such file")
+        self.refuse([*RENDER, "--out", "a.png", "--path", "still", "--frames", "3"], "--path", "--frames")
+        self.refuse([*RENDER, "--out", "a.png", "--strip"], "--strip", "--path")
+        self.refuse([*RENDER, "--out", "a.exr", "--strip", "--path", "still"], "--strip", ".png")
+        self.refuse(["render", "--scene", "flat", "--out", "a.png", "--size", "4000x4000", "--strip", "--path", "still"],
+                    "--strip", "pixels")
+        self.refuse([*RENDER, "--out", "missing/a.png", "--path", "still"], "missing", "cannot write")
+
+    def test_files(self):
+        good = {"camera": "relative", "frames": 2, "keys": [{"frame": 0}]}
+        self.refuse_recording("", "1")
+        self.refuse_recording({**good, "frames": -1}, "frames", "1 to")
+        self.refuse_recording({**good, "roll": 1}, "roll", "unknown key")
+        self.refuse_recording({**good, "keys": [{"frame": 1}]}, "keys[0].frame")
+        self.refuse_recording({**good, "ticks_per_frame": 1001}, "ticks_per_frame", "0 to 1000")
+        self.refuse_recording({**good, "edits": [{"frame": 0, "center_vox": [0, 0, 0], "material": "cheese"}]},
+                              "edits[0].material", "water")
 
 
 class BadOutputs(Case):

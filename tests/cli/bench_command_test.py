@@ -49,6 +49,8 @@ class Bench(Case):
                  for who in ("awake", "tenth", "asleep")}
         self.assertEqual((awake["awake"], awake["asleep"]), (8 ** 3, 0))
         self.assertEqual(awake["tenth"], 8 * 8)
+        for who in ("awake", "asleep", "cpu awake", "awake block", "cpu awake block"):
+            self.assertGreater(figures["sim", "terrain-32", "tick", who]["median"], 0)
         for who in ("radius 1", "radius 8", "radius 32"):
             self.assertGreater(figures["edit", "terrain-32", "stroke", who]["median"], 0)
 
@@ -92,8 +94,16 @@ class Bench(Case):
                 # The program itself and the driver's libraries need some.
                 self.assertGreater(figures["start", scene, "peak memory", who]["median"], 20)
 
+    def test_variants(self):
+        _, _, figures = self.run_short("variants", "variants")
+        for scene, names in (("dry-32", ("clear", "rough", "smooth-water", "coated", "emitters", "all")),
+                             ("terrain-32", ("rough", "coated", "emitters", "tick at rest", "tick awake")),
+                             ("cave", ("sun", "all"))):
+            for who in names:
+                self.assertGreater(figures["variants", scene, "with / without", who]["median"], 0)
+
     def test_bad_names(self):
-        self.refuse(["bench", "--suite", "rays,moon"], "--suite moon", "rays, frame, sim, edit, start")
+        self.refuse(["bench", "--suite", "rays,moon"], "--suite moon", "rays, frame, sim, edit, start, variants")
         self.refuse(["bench", "--sizes", "8"], "--sizes", "16")
         self.refuse(["bench", "--repeats", "0"], "--repeats")
         self.refuse(["bench", "--with", "old.json"], "--with", "--compare")

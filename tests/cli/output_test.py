@@ -48,6 +48,37 @@ class Texts(Case):
         self.assertNotIn("FAIL", text)
 
 
+class Recordings(Case):
+    RECORDING = {"camera": "relative", "frames": 3, "lead_frames": 2, "ticks_per_frame": [0, 2, 1],
+                 "keys": [{"frame": 0}, {"frame": 1, "yaw_deg": 40}],
+                 "edits": [{"frame": 2, "center_vox": [0, 0, 3], "radius_vox": 1, "material": "wall"}]}
+
+    def setUp(self):
+        super().setUp()
+        scene = {**SMALL, "camera": {"position_vox": [4.5, 3.5, 12], "fov_deg": 50}}
+        self.write("s.json", json.dumps(scene))
+        self.write("r.json", json.dumps(self.RECORDING))
+
+    def test_numbered_pictures_and_strip(self):
+        play = ("render", "--scene", "s.json", "--path", "r.json", "--size", "20x10")
+        self.succeed(*play, "--out", "a.png", "--stats", "a.json")
+        self.succeed(*play, "--out", "b.png", "--strip")
+        self.assertEqual(self.files(), ["a-0000.png", "a-0001.png", "a-0002.png", "a.json", "b.png", "r.json", "s.json"])
+        self.assertEqual(json.loads(self.read("a.json"))["ticks"], 3)
+        width, height, channels, strip = read_png(self.read("b.png"))
+        self.assertEqual((width, height), (60, 10))
+        frames = [read_png(self.read(f"a-000{i}.png"))[3] for i in range(3)]
+        for y in range(height):
+            self.assertEqual(bytes(strip[y]), b"".join(bytes(frame[y]) for frame in frames))
+        self.assertNotEqual(frames[0], frames[1])  # turned
+        self.assertNotEqual(frames[1], frames[2])  # built
+
+    def test_exact_frames(self):
+        play = ("render", "--scene", "s.json", "--path", "r.json", "--size", "8x4", "--exact", "--spp", "4", "--out")
+        self.succeed(*play, "a.exr")
+        self.assertEqual(self.files(), ["a-0000.exr", "a-0001.exr", "a-0002.exr", "r.json", "s.json"])
+
+
 class Cells(Case):
     def setUp(self):
         super().setUp()

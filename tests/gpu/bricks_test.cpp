@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <random>
 
 #include "app/simulation.h"
 #include "core/error.h"
@@ -75,6 +77,40 @@ void expect_right_distances(const Simulation& simulation, const Cells& cells) {
         ASSERT_TRUE(got[at] == r && got[at + 1] == g)
             << fmt::format("brick ({}, {}, {}): GPU {} {}, counted {} {}", brick.x, brick.y, brick.z, got[at],
                            got[at + 1], r, g);
+    });
+}
+
+// The same by two passes over the bricks, each of which looks at 13 of the 26 neighbours (Rosenfeld & Pfaltz
+// 1968): for worlds that reach farther than a distance does. Obstacles beyond the world only for water.
+std::vector<std::uint8_t> chamfered(glm::ivec3 size, const std::vector<char>& obstacle, int beyond) {
+    std::vector<int> distance(volume(size));
+    for (std::size_t i = 0; i < distance.size(); ++i) distance[i] = obstacle[i] ? 0 : BRICK_DISTANCE_MAX;
+    for (const int way : {-1, 1})
+        for_cells(size, [&](glm::ivec3 at) {
+            const glm::ivec3 brick = way < 0 ? at : size - 1 - at;
+            int& best = distance[flat(brick, size)];
+            for (int k = 0; k < 13; ++k) {
+                const glm::ivec3 other = brick - way * (glm::ivec3(k % 3, k / 3 % 3, k / 9) - 1);
+                const bool inside = glm::all(glm::greaterThanEqual(other, glm::ivec3(0))) &&
+                                    glm::all(glm::lessThan(other, size));
+                best = std::min(best, 1 + (inside ? distance[flat(other, size)] : beyond));
+            }
+        });
+    return {distance.begin(), distance.end()};
+}
+
+void expect_chamfered_distances(const Simulation& simulation, const Cells& cells) {
+    const glm::ivec3 size = bricks_in(cells.size_vox());
+    std::vector<std::uint8_t> got(2 * volume(size));
+    simulation.brick_distance().download(std::span<std::uint8_t>(got), GL_RG_INTEGER, GL_UNSIGNED_BYTE);
+    const Obstacles obstacles = find_obstacles(cells);
+    const auto r = chamfered(size, obstacles.matter, BRICK_DISTANCE_MAX);
+    const auto g = chamfered(size, obstacles.not_water, 0);
+    for_cells(size, [&](glm::ivec3 brick) {
+        const int at = flat(brick, size);
+        ASSERT_TRUE(got[2 * at] == r[at] && got[2 * at + 1] == g[at])
+            << fmt::format("brick ({}, {}, {}): GPU {} {}, counted {} {}", brick.x, brick.y, brick.z,
+                           got[2 * at], got[2 * at + 1], r[at], g[at]);
     });
 }
 
@@ -199,6 +235,69 @@ TEST_F(BricksTest, a_stroke_across_the_world_is_undone) {
     EXPECT_EQ(simulation.edit_totals().placed, simulation.edit_totals().removed);
     simulation.write(*history.redo());
     EXPECT_TRUE(same_cells(simulation.read_cells(), edited));
+}
+
+// Worlds that reach farther than the largest distance, so that only a part is computed anew: all around open
+// sky, in deep water and at the borders.
+TEST_F(BricksTest, distances_follow_random_edits_and_what_moves) {
+    std::mt19937 random(5);
+    const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+    for (const glm::ivec3 size : {glm::ivec3(300, 290, 310), glm::ivec3(700, 21, 16), glm::ivec3(9, 700, 24),
+                                  glm::ivec3(16, 33, 700)}) {
+        SCOPED_TRACE(fmt::format("{}x{}x{}", size.x, size.y, size.z));
+        Scene scene;
+        scene.cells = Cells(size);
+        auto& bytes = scene.cells.bytes();
+        for (int z = 0; z < size.z; ++z)
+            for (int y = 0; 2 * y < size.y; ++y)
+                std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(scene.cells.index({0, y, z})), size.x,
+                            static_cast<std::uint8_t>(MATERIAL_WATER_FULL));
+        gl::Timers timers;
+        Simulation simulation(scene, timers);
+        simulation.put_to_sleep();
+        EditHistory history;
+        constexpr std::array<std::uint8_t, 4> materials{MATERIAL_STONE, MATERIAL_AIR, MATERIAL_WATER,
+                                                        MATERIAL_SAND};
+        for (int round = 0; round < 12; ++round) {
+            history.begin_stroke();
+            // The first a stone in the sky, alone; then, two at a time, one at each end of what came before.
+            for (int i = 0; i < (round == 0 ? 1 : 2); ++i)
+                simulation.apply({.tick = simulation.tick(),
+                                  .center_vox = {below(size.x), round == 0 ? size.y * 3 / 4 : below(size.y),
+                                                 below(size.z)},
+                                  .radius_vox = 1 + below(9),
+                                  .material = materials[static_cast<std::size_t>(round % 4)],
+                                  .overwrite = true},
+                                 history);
+            if (round % 3 == 2) simulation.write(*history.undo());
+            if (round % 4 == 3) simulation.step(1 + below(3), Settings{});
+            expect_chamfered_distances(simulation, simulation.read_cells());
+            if (HasFatalFailure()) return;
+        }
+    }
+}
+
+// What is nearest, once a stone is gone, may lie as far beyond the bricks that are computed anew as they
+// reach.
+TEST_F(BricksTest, distances_reach_beyond_what_is_computed_anew) {
+    for (int axis = 0; axis < 3; ++axis) {
+        SCOPED_TRACE(axis);
+        glm::ivec3 size(20);
+        size[axis] = 700;
+        Scene scene;
+        scene.cells = Cells(size);
+        constexpr int apart = 2 * (BRICK_DISTANCE_MAX - 1) - 1;
+        std::array<glm::ivec3, 3> stones{};
+        for (int i = 0; i < 3; ++i) {
+            stones[i] = glm::ivec3(10);
+            stones[i][axis] = (20 + i * apart) * BRICK_SIDE;
+            scene.cells.at(stones[i]) = MATERIAL_STONE;
+        }
+        gl::Timers timers;
+        Simulation simulation(scene, timers);
+        simulation.write({{stones[1], MATERIAL_STONE, MATERIAL_AIR}});
+        expect_chamfered_distances(simulation, simulation.read_cells());
+    }
 }
 
 TEST_F(BricksTest, single_cells_are_read_back) {

@@ -65,7 +65,7 @@ struct Tree {
     void update(const Simulation& simulation) {
         materials.bind_uniform(BINDING_MATERIALS);
         pass.record({.cells = simulation.cells(),
-                     .brick_changed = simulation.brick_changed(),
+                     .changes = simulation.changes(),
                      .version = static_cast<std::uint32_t>(simulation.version())},
                     timers);
     }
@@ -124,6 +124,35 @@ TEST_F(EmittersTest, TheTreeEqualsACountOverTheCellsThroughTicksAndEdits) {
             }
         }
     }
+}
+
+// What is built into a lamp or taken from beside it, in the lamp's brick or in the next; some versions later.
+TEST_F(EmittersTest, TheTreeFollowsSingleCellsBesideALamp) {
+    constexpr glm::ivec3 size(26, 21, 19);
+    constexpr glm::ivec3 lamp(11, 8, 7);  // at three faces of its brick
+    Scene scene;
+    scene.cells = Cells(size);
+    scene.cells.at(lamp) = MATERIAL_LAMP;
+    gl::Timers timers;
+    Simulation simulation(scene, timers);
+    simulation.put_to_sleep();
+    Tree tree(size, scene.materials);
+    tree.update(simulation);
+    for (const glm::ivec3 d : directions) {
+        simulation.write({{lamp + d, MATERIAL_AIR, MATERIAL_STONE}});
+        simulation.step(1, Settings{});
+        tree.update(simulation);
+        expect_tree_of(tree, simulation.read_cells(), scene.materials);
+    }
+    for (const glm::ivec3 d : directions) {
+        simulation.write({{lamp + d, MATERIAL_STONE, MATERIAL_GLASS}});
+        if (d.x == 0) tree.update(simulation);
+    }
+    tree.update(simulation);
+    expect_tree_of(tree, simulation.read_cells(), scene.materials);
+    simulation.write({{lamp, MATERIAL_LAMP, MATERIAL_STONE}});
+    tree.update(simulation);
+    expect_tree_of(tree, simulation.read_cells(), scene.materials);
 }
 
 // Solid angle of a rectangle at distance `d` along its normal, one corner at (x0, y0) and the other at (x1,

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <random>
 
 #include "app/simulation.h"
 #include "gpu/gl_test.h"
@@ -99,6 +100,19 @@ TEST_F(FlowTest, counts_pass_32_bits) {
                                 near + voxels, near + voxels}));
 }
 
+// Refreshes until the counts are those of the cells, or for too long.
+void expect_census_of_cells(Simulation& simulation) {
+    const Census now = take_census(simulation.read_cells());
+    const auto start = std::chrono::steady_clock::now();
+    static double clock_s = 0;
+    const double start_s = clock_s;
+    while (simulation.recent_census() != now && clock_s - start_s < 20) {
+        clock_s = start_s + std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        simulation.refresh_census(clock_s);
+    }
+    EXPECT_EQ(simulation.recent_census(), now);
+}
+
 TEST_F(FlowTest, census_arrives_without_being_waited_for) {
     Scene scene;
     scene.cells = make_soup({61, 37, 45}, Soup::AllBytes, 5);
@@ -106,15 +120,37 @@ TEST_F(FlowTest, census_arrives_without_being_waited_for) {
     Simulation simulation(scene, timers);
     EXPECT_EQ(simulation.recent_census(), take_census(scene.cells));
     simulation.step(30, Settings{});
-    const Census now = take_census(simulation.read_cells());
-    EXPECT_NE(now, take_census(scene.cells)) << "amounts of water change";
-    const auto start = std::chrono::steady_clock::now();
-    double now_s = 0;
-    while (simulation.recent_census() != now && now_s < 20) {
-        now_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        simulation.refresh_census(now_s);
+    EXPECT_NE(take_census(simulation.read_cells()), take_census(scene.cells)) << "amounts of water change";
+    expect_census_of_cells(simulation);
+}
+
+// Only tiles in which something changed are counted anew.
+TEST_F(FlowTest, census_follows_ticks_edits_undo_and_loading) {
+    Scene scene;
+    scene.cells = make_soup({99, 70, 37}, Soup::Matter, 7);
+    gl::Timers timers;
+    Simulation simulation(scene, timers);
+    EditHistory history;
+    std::mt19937 random(3);
+    const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+    for (int round = 0; round < 8; ++round) {
+        if (round == 1) simulation.put_to_sleep();
+        history.begin_stroke();
+        for (int i = 0; i < 3; ++i)
+            simulation.apply(
+                {.tick = simulation.tick(),
+                 .center_vox = {below(99), below(70), below(37)},
+                 .radius_vox = 1 + below(4),
+                 .material = static_cast<std::uint8_t>(round % 2 == 0 ? MATERIAL_LAMP : MATERIAL_AIR),
+                 .overwrite = true},
+                history);
+        if (round % 3 == 2) simulation.write(*history.undo());
+        if (round % 2 == 1) simulation.step(1 + below(4), Settings{});
+        expect_census_of_cells(simulation);
     }
-    EXPECT_EQ(simulation.recent_census(), now);
+    simulation.write_cells(make_soup({99, 70, 37}, Soup::Layers, 8));
+    simulation.step(2, Settings{});
+    expect_census_of_cells(simulation);
 }
 
 }  // namespace

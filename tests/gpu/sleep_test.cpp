@@ -238,6 +238,21 @@ TEST_F(SleepTest, a_spring_in_sleeping_water_runs_on) {
     }
 }
 
+// Whether a block holds what moves is asked of 32 bricks along x at once.
+TEST_F(SleepTest, lonely_water_moves_wherever_it_lies) {
+    for (const int x : {0, 125, 127, 128, 131, 255, 258, 269}) {
+        const Scene scene = make_scene({270, 16, 24}, [&](glm::ivec3 c) {
+            return c.x == x && c.y >= 6 ? MATERIAL_WATER_FULL : MATERIAL_AIR;
+        });
+        for (const WaterTier tier : {WaterTier::Block, WaterTier::Level}) {
+            SCOPED_TRACE(fmt::format("{}, x {}", name_of(tier), x));
+            Pair pair(scene);
+            pair.step(24, settings_of(tier));
+            EXPECT_TRUE(pair.agree());
+        }
+    }
+}
+
 TEST_F(SleepTest, the_springs_of_built_in_scenes_never_sleep) {
     for (const std::string& name : built_in_scenes()) {
         const Scene scene = load_scene(name, Settings{});

@@ -2,7 +2,6 @@
 #define TRACE_CLEAR 1
 #define TRACE_ROUGH 1
 #define TRACE_COATED 1
-#define TRACE_METAL 1
 #include "lib/bsdf.glsl"
 
 // As BsdfCaseBlock of tests/gpu/bsdf_case.h. A block: zink mixes up the variants that it makes of plain uniforms.

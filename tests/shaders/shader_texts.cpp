@@ -24,8 +24,8 @@ const std::map<std::string, std::vector<std::string>> numbers = {
     {"AXIS", {"0", "1", "2"}}, {"SHOWN_VIEW", {"1", "2", "3", "4", "5", "6", "7", "8"}}};
 
 // Macros that the passes define only together with another.
-const std::map<std::string, std::string> needs = {
-    {"TRACE_ROUGH", "TRACE_CLEAR"}, {"TRACE_SMOOTH_WATER", "TRACE_CLEAR"}, {"TRACE_METAL", "TRACE_COATED"}};
+const std::map<std::string, std::string> needs = {{"TRACE_ROUGH", "TRACE_CLEAR"},
+                                                  {"TRACE_SMOOTH_WATER", "TRACE_CLEAR"}};
 
 bool is_made(const Defines& defines) {
     const auto defined = [&](const std::string& name) {

@@ -1,14 +1,18 @@
 // The long runs, by their own command: ctest -C soak -L soak. Of conservation_test: 10,000 ticks of every
-// built-in scene, a minute or so a scene without a GPU. Of extremes_history_test: a million frames of exact
-// mode's mean.
+// built-in scene, a minute or so a scene without a GPU; and 10,000 beside the CPU reference. Of
+// extremes_history_test: a million frames of exact mode's mean.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 
 #include "gpu/accumulator.h"
 #include "gpu/conservation.h"
 #include "gpu/gl_test.h"
+#include "gpu/worlds.h"
+#include "reference/simulation.h"
 
 namespace tarn {
 namespace {
@@ -33,6 +37,37 @@ TEST_F(SoakTest, every_scene_keeps_its_water_and_sand_for_10000_ticks) {
         std::fflush(stdout);
     }
 }
+
+// Asleep or awake, as the scene would have it: seconds where it comes to rest, ten minutes or so where a
+// spring runs on, most of them the reference's.
+class SceneSoakTest : public GlTest, public testing::WithParamInterface<std::string> {};
+
+TEST_P(SceneSoakTest, equals_the_reference_for_10000_ticks) {
+    const Scene scene = load_scene(GetParam(), Settings{});
+    gl::Timers timers;
+    Simulation simulation(scene, timers);
+    reference::Simulation reference(scene, 0);
+    const auto start = std::chrono::steady_clock::now();
+    for (int tick = 0; tick < 10000; tick += 100) {
+        simulation.step(100, scene.settings);
+        reference.step(100, scene.settings);
+        ASSERT_TRUE(same_cells(simulation.read_cells(), reference.cells())) << "tick " << tick + 100;
+        timers.end_frame();
+    }
+    const FlowTotals flow = simulation.flow_totals();
+    EXPECT_EQ(flow.sprung_water_quanta, reference.flow().sprung_water_quanta);
+    EXPECT_EQ(flow.drained_water_quanta, reference.flow().drained_water_quanta);
+    fmt::print("{:10} tick {}: {} bricks active (reference {}), {:.0f} s\n", GetParam(), simulation.tick(),
+               simulation.active_bricks(), reference.active_bricks(),
+               std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    std::fflush(stdout);
+}
+
+INSTANTIATE_TEST_SUITE_P(BuiltIn, SceneSoakTest, testing::ValuesIn(built_in_scenes()), [](const auto& scene) {
+    std::string name = scene.param;
+    std::replace(name.begin(), name.end(), '-', '_');
+    return name;
+});
 
 TEST_F(SoakTest, a_mean_of_a_million_frames_is_their_mean) {
     const NoisyFrames frames;

@@ -1,0 +1,129 @@
+// The governor under scripted loads: noise, spikes, steps, a table that is wrong, targets out of reach.
+#include "app/governor.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+
+namespace tarn {
+namespace {
+
+const std::vector<double> table = {0.2, 0.35, 0.6, 1, 1.6, 2.5, 4};
+
+struct Script {
+    double target_ms = 33;
+    std::function<double(int)> load_ms;  // of a frame at time 1, by frame
+    std::vector<double> truth = table;   // of this scene; the governor knows `table`
+    double noise = 0;                    // standard deviation of a frame's time, relative
+    double spike_share = 0;              // of frames that take ten times as long
+    std::size_t start = 3;
+};
+
+struct Outcome {
+    std::vector<std::size_t> points;  // by frame
+    std::vector<double> ms;           // without noise
+    int switches(int from, int to) const {
+        int n = 0;
+        for (int i = from + 1; i < to; ++i) n += points[i] != points[i - 1] ? 1 : 0;
+        return n;
+    }
+};
+
+Outcome run(const Script& script, int frames) {
+    Governor governor(table);
+    std::mt19937 random(7);
+    std::normal_distribution<double> normal;
+    std::uniform_real_distribution<double> uniform;
+    Outcome outcome;
+    std::size_t point = script.start;
+    for (int frame = 0; frame < frames; ++frame) {
+        const double clean = script.load_ms(frame) * script.truth[point];
+        double ms = clean * std::max(0.2, 1 + script.noise * normal(random));
+        if (uniform(random) < script.spike_share) ms *= 10;
+        outcome.points.push_back(point);
+        outcome.ms.push_back(clean);
+        point = governor.frame(ms, point, script.target_ms);
+    }
+    return outcome;
+}
+
+TEST(Governor, ClimbsToTheBestPointThatFitsAndStays) {
+    const Outcome outcome = run({.load_ms = [](int) { return 18.0; }, .start = 0}, 1000);
+    EXPECT_EQ(outcome.points.back(), 3u);  // 18 ms; the next would take 28.8, above 0.85 of the target
+    EXPECT_EQ(outcome.switches(300, 1000), 0);
+}
+
+TEST(Governor, FallsAtOnceAsFarAsNeeded) {
+    const Outcome outcome = run({.load_ms = [](int frame) { return frame < 200 ? 30.0 : 120.0; }}, 400);
+    EXPECT_EQ(outcome.points[199], 3u);
+    EXPECT_EQ(outcome.points[220], 0u);  // 24 ms; the next would take 42
+    EXPECT_EQ(outcome.switches(200, 400), 1);
+}
+
+TEST(Governor, DoesNotSwingUnderNoiseAndSpikes) {
+    for (const double load : {8.0, 13.0, 20.0, 27.0, 29.0, 31.0, 33.0, 35.0, 37.0, 55.0, 90.0}) {
+        const Outcome outcome =
+            run({.load_ms = [&](int) { return load; }, .noise = 0.2, .spike_share = 0.05}, 4000);
+        EXPECT_LE(outcome.switches(1000, 4000), 2) << load;
+        const double best = outcome.ms.back();
+        EXPECT_LE(best, 1.15 * 33) << load;
+    }
+}
+
+TEST(Governor, LearnsWhatATableFromElsewhereHasWrong) {
+    // Here the point above costs five times as much, not 1.6 times.
+    std::vector<double> truth = table;
+    for (std::size_t i = 4; i < truth.size(); ++i) truth[i] *= 3;
+    const Outcome outcome = run({.load_ms = [](int) { return 15.0; }, .truth = truth}, 6000);
+    EXPECT_EQ(outcome.points.back(), 3u);
+    EXPECT_LE(outcome.switches(0, 6000), 2);  // up once, and back for good
+}
+
+TEST(Governor, FollowsStepsBothWays) {
+    const Outcome outcome =
+        run({.load_ms = [](int frame) { return frame / 500 % 2 == 0 ? 16.0 : 64.0; }, .noise = 0.1}, 4000);
+    // Down within a few frames of each step up; at most four moves to climb back.
+    for (int step = 500; step + 500 <= 4000; step += 1000) {
+        EXPECT_LE(outcome.ms[step + 30], 33 * 1.1) << step;
+        EXPECT_LE(outcome.switches(step, step + 500), 2) << step;
+        EXPECT_LE(outcome.switches(step + 500, std::min(step + 1000, 4000)), 4) << step;
+    }
+}
+
+TEST(Governor, TargetsOutOfReachEndAtTheEnds) {
+    const Outcome slow = run({.target_ms = 1, .load_ms = [](int) { return 50.0; }, .noise = 0.1}, 2000);
+    EXPECT_EQ(slow.points.back(), 0u);
+    EXPECT_EQ(slow.switches(100, 2000), 0);
+    const Outcome fast = run({.target_ms = 10000, .load_ms = [](int) { return 5.0; }, .noise = 0.1}, 2000);
+    EXPECT_EQ(fast.points.back(), table.size() - 1);
+    EXPECT_EQ(fast.switches(1000, 2000), 0);
+}
+
+TEST(Governor, WatchesWithoutATargetAndSaysWhatToExpect) {
+    Governor governor(table);
+    EXPECT_EQ(governor.expected_ms(3), 0);
+    for (int i = 0; i < 100; ++i) EXPECT_EQ(governor.frame(20, 3, 0), 3u);
+    EXPECT_DOUBLE_EQ(governor.expected_ms(3), 20);
+    EXPECT_DOUBLE_EQ(governor.expected_ms(0), 4);
+    // The player moves the slider: what to expect there is known at once, and corrected when it was seen.
+    governor.frame(20, 5, 0);
+    EXPECT_DOUBLE_EQ(governor.expected_ms(5), 50);
+    for (int i = 0; i < 100; ++i) governor.frame(70, 5, 0);
+    EXPECT_DOUBLE_EQ(governor.expected_ms(5), 70);
+    EXPECT_DOUBLE_EQ(governor.expected_ms(3), 20);
+}
+
+TEST(Governor, IgnoresTimesOfNoSense) {
+    Governor governor(table);
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const double ms : {0.0, -1.0, nan, std::numeric_limits<double>::infinity()})
+        for (int i = 0; i < 50; ++i) EXPECT_EQ(governor.frame(ms, 3, 33), 3u);
+    EXPECT_EQ(governor.expected_ms(3), 0);
+    EXPECT_LT(governor.frame(20, 99, 33), table.size());
+}
+
+}  // namespace
+}  // namespace tarn
