@@ -1,5 +1,5 @@
 // The surface of a shown pixel, looked for among those that traced pixels around it and the last frame show: an eye ray
-// for every shown pixel costs four times as much.
+// for every shown pixel costs more.
 #include "lib/camera.glsl"
 #include "lib/materials.glsl"
 #include "lib/surface.glsl"
