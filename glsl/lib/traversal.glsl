@@ -62,6 +62,8 @@ bool inside_world(ivec3 cell) {
     return all(lessThan(uvec3(cell), uvec3(frame.world_size_vox.xyz)));
 }
 
+uint byte_or_air(ivec3 cell) { return inside_world(cell) ? cell_byte(cell) : MATERIAL_AIR; }
+
 // True for water that leaves air above it in its voxel.
 bool is_partly_filled(uint value) { return is_water(value) && value != MATERIAL_WATER_FULL; }
 

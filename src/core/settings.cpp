@@ -38,6 +38,7 @@ constexpr PresetRow presets[] = {{"max_bounces", {"8", "16", "24", "64", "1024"}
                                  {"max_distance_vox", {"4096", "4096", "4096", "4096", "10000000"}},
                                  {"samples_per_pixel", {"1", "1", "1", "2", "1"}},
                                  {"resolution_scale", {"1", "0.5", "1", "1", "1"}},
+                                 {"guided_upsampling", {"false", "false", "true", "true", "true"}},
                                  {"traversal", {"voxel", "distance", "distance", "distance", "distance"}},
                                  {"light_sampling", {"none", "lights", "lights", "lights", "lights"}},
                                  {"diffuse_sampling", {"uniform", "cosine", "cosine", "cosine", "cosine"}},
@@ -52,6 +53,8 @@ constexpr PresetRow presets[] = {{"max_bounces", {"8", "16", "24", "64", "1024"}
                                  {"history", {"blend", "count", "count", "count", "exact"}},
                                  {"history_alpha", {"0.1", "0.1", "0.1", "0.1", "0.1"}},
                                  {"history_cap", {"48", "32", "48", "256", "48"}},
+                                 {"retrace_changes", {"false", "true", "true", "true", "false"}},
+                                 {"refine_at_rest", {"false", "true", "true", "true", "false"}},
                                  {"filter", {"gaussian", "edge_aware", "edge_aware", "edge_aware", "none"}},
                                  {"filter_passes", {"1", "1", "1", "1", "1"}}};
 
