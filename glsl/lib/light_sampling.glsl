@@ -64,7 +64,7 @@ vec3 sampled_sun(Vertex v, RayStart start, bool across, bool through_water) {
         bool ends = hit.kind == HIT_NONE;
         int hit_axis = hit.axis;
 #ifdef TRACE_SMOOTH_WATER
-        WaterFace water = water_face(ray.medium, dir, hit, hit_point(ray, dir, hit));
+        WaterFace water = water_face(ray.medium, dir, hit, hit_point(ray, dir, hit), false);
         if (water.is_smooth && !water.met && ray.medium == MATERIAL_AIR) {
             ray = water.start;
             continue;
@@ -130,12 +130,8 @@ Receiver mirror_image(Receiver to, float height) {
     return Receiver(vec3(to.at_vox.x, 2.0 * height - to.at_vox.y, to.at_vox.z), to.axis, to.axis == 1 ? -to.side : to.side);
 }
 
-bool is_air_to_water(uint a, uint b) {
-    return (a == MATERIAL_AIR && b == MATERIAL_WATER) || (a == MATERIAL_WATER && b == MATERIAL_AIR);
-}
-
 uint medium_at(ivec3 cell, vec3 point) {
-    uint value = inside_world(cell) ? cell_byte(cell) : MATERIAL_AIR;
+    uint value = cell_byte(cell);
     bool dry = is_partly_filled(value) && point.y >= surface_height(cell, value);
     return dry ? MATERIAL_AIR : material_of(value);
 }
@@ -209,7 +205,7 @@ vec3 sampled_emitter(Vertex v, bool across_water, float above, bool mirrored) {
         vec3 point = hit_point(ray, dir, hit);
         int hit_axis = hit.axis;
 #ifdef TRACE_SMOOTH_WATER
-        WaterFace water = water_face(ray.medium, dir, hit, point);
+        WaterFace water = water_face(ray.medium, dir, hit, point, false);
         if (water.is_smooth && !water.met) {
             ray = water.start;
             continue;

@@ -1,17 +1,27 @@
-// What the bricks that changed hold: r 1 where a cell is not air, g 1 where a cell is not full water (or lies
-// beyond the world), and whether they hold what moves and room for it. An invocation a brick. Bricks with another answer than before
-// are boxed in for the distances.
+// What the bricks that changed hold, as shared/rooms.h lays it out, and whether they hold what moves and room for it. An
+// invocation a brick. Where one became clear of air or of full water or ceased to be, its column is marked for
+// brick_rooms.comp.
 #include "shared/materials.h"
-#include "lib/distance_boxes.glsl"
+#include "shared/bindings.h"
+#include "shared/rooms.h"
 #include "lib/matter.glsl"
 #include "lib/new_changes.glsl"
 
 layout(local_size_x = CHANGES_PER_GROUP) in;
 
 layout(binding = BINDING_CELLS) uniform usampler3D cells;
+// r: 1 where a cell is not air, g: 1 where a cell is not full water or lies beyond the world.
 layout(rg8ui, binding = 0) uniform uimage3D occupancy;
+layout(rg32ui, binding = 1) writeonly uniform uimage3D brick_rooms;
+
+// Indirect arguments of brick_rooms.comp, by axis: 0 groups until something changed.
+layout(std430, binding = STORAGE_ROOM_GROUPS) writeonly buffer RoomGroups { uint groups[9]; };
+// Version at which lines of bricks were marked: along y (x fastest), then along x (y fastest), then along z (x fastest).
+layout(std430, binding = STORAGE_ROOM_LINES) writeonly buffer Lines { uint marked[]; };
 
 uniform ivec3 size_bricks;
+uniform uvec3 line_groups;  // along x, y, z: ceil(size / 8)
+uniform uint version;
 
 void main() {
     uint item = new_change_item();
@@ -20,16 +30,18 @@ void main() {
     uvec3 bricks = uvec3(size_bricks);
     ivec3 brick = ivec3(id % bricks.x, id / bricks.x % bricks.y, id / (bricks.x * bricks.y));
     ivec3 first = brick * BRICK_SIDE;
-    bool cut = any(greaterThan(first + BRICK_SIDE, textureSize(cells, 0)));
     ivec3 size = min(textureSize(cells, 0) - first, ivec3(BRICK_SIDE));
-    uvec2 holds = uvec2(0u, cut ? 1u : 0u);
+    uvec2 not_air = uvec2(0u);
+    uvec2 not_water = uvec2(0u);
     bool moves = false;
     bool room = false;
-    int count = size.x * size.y * size.z;
-    for (int i = 0; i < count && !(moves && room && holds == uvec2(1u)); ++i) {
-        uint cell = texelFetch(cells, first + ivec3(i % size.x, i / size.x % size.y, i / (size.x * size.y)), 0).r;
-        if (cell != MATERIAL_AIR) holds.r = 1u;
-        if (cell != MATERIAL_WATER_FULL) holds.g = 1u;
+    for (int i = 0; i < 64; ++i) {
+        ivec3 at = ivec3(i & 3, (i >> 2) & 3, i >> 4);
+        bool within = all(lessThan(at, size));
+        uint cell = texelFetch(cells, first + min(at, size - 1), 0).r;
+        uvec2 bit = uvec2(i < 32 ? 1u << i : 0u, i < 32 ? 0u : 1u << (i - 32));
+        if (within && cell != MATERIAL_AIR) not_air |= bit;
+        if (!within || cell != MATERIAL_WATER_FULL) not_water |= bit;
         bool movable = is_water(cell) || cell == MATERIAL_SAND;
         moves = moves || movable;
         room = room || cell == MATERIAL_AIR || (movable && cell != MATERIAL_WATER_FULL);
@@ -43,11 +55,24 @@ void main() {
     for (bool ends = moved && !moves; ends; ends = false) atomicAnd(matter[word].moves, ~bit);
     for (bool begins = room && !had_room; begins; begins = false) atomicOr(matter[word].room, bit);
     for (bool ends = had_room && !room; ends; ends = false) atomicAnd(matter[word].room, ~bit);
-    for (bool flips = imageLoad(occupancy, brick).rg != holds; flips; flips = false) {
-        imageStore(occupancy, brick, uvec4(holds, 0u, 0u));
-        for (int k = 0; k < 3; ++k) {
-            for (bool grows = brick[k] < flips_low[k]; grows; grows = false) atomicMin(flips_low[k], brick[k]);
-            for (bool grows = brick[k] > flips_high[k]; grows; grows = false) atomicMax(flips_high[k], brick[k]);
-        }
+    uvec2 holds = uvec2(not_air != uvec2(0u), not_water != uvec2(0u));
+    uvec2 held = imageLoad(occupancy, brick).rg;
+    // The rooms of a brick that stays clear are kept.
+    for (int medium = 0; medium < 2; ++medium) {
+        uvec2 mask = medium == 0 ? not_air : not_water;
+        uint full = medium == 0 ? holds.r : holds.g;
+        if (full == 0u && (medium == 0 ? held.r : held.g) == 0u) continue;
+        uvec2 stored = full == 0u ? uvec2(0u, ROOM_CLEAR) : uvec2(room_word_x(mask.x, mask.y), mask.y);
+        imageStore(brick_rooms, brick + ivec3(0, 0, medium * size_bricks.z), uvec4(stored, 0u, 0u));
     }
+    if (held == holds) return;
+    imageStore(occupancy, brick, uvec4(holds, 0u, 0u));
+    marked[brick.x + size_bricks.x * brick.z] = version;
+    groups[0] = line_groups.y;
+    groups[1] = line_groups.z;
+    groups[3] = line_groups.x;
+    groups[4] = line_groups.z;
+    groups[6] = line_groups.x;
+    groups[7] = line_groups.y;
+    groups[2] = groups[5] = groups[8] = 1u;
 }

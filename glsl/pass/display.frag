@@ -3,6 +3,11 @@
 #include "lib/math.glsl"
 
 layout(binding = 4) uniform sampler2D radiance;
+#ifdef DISPLAY_REFINED
+layout(binding = 5) uniform sampler2D exact_mean;
+layout(binding = 6) uniform sampler2D exact_sum;  // a: sum of the luminance's squared deviations
+uniform float exact_samples;
+#endif
 
 layout(location = 0) out vec4 out_picture;
 
@@ -12,10 +17,43 @@ vec3 filmic(vec3 x) {
     return clamp((x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
 }
 
-vec3 shown_radiance() {
-    if (frame.size_px.xy == frame.size_px.zw) return texelFetch(radiance, ivec2(gl_FragCoord.xy), 0).rgb;
-    return textureLod(radiance, gl_FragCoord.xy / vec2(frame.size_px.zw), 0.0).rgb;
+vec3 preset_radiance(ivec2 at) {
+    if (textureSize(radiance, 0) == frame.size_px.zw) return texelFetch(radiance, at, 0).rgb;
+    return textureLod(radiance, (vec2(at) + 0.5) / vec2(frame.size_px.zw), 0.0).rgb;
 }
+
+#ifdef DISPLAY_REFINED
+// The exact mean, of variance v, has its least error beside another picture of error b with the weight b / (b + v). b is
+// their difference around the pixel beyond what v explains; three times v, so that its chance is not taken for b.
+const float VARIANCE_DOUBTED = 3.0;
+// Samples after which the estimate counts, and the weight that comes without it, for small errors: n / (n + this).
+const float SAMPLES_OF_ESTIMATE = 32.0;
+const float SAMPLES_TRUSTED = 1024.0;
+
+float weight_of_exact(ivec2 at) {
+    float difference = 0.0;
+    float deviations = 0.0;
+    ivec2 last = frame.size_px.zw - 1;
+    for (int k = 0; k < 9; ++k) {
+        ivec2 tap = clamp(at + 2 * (ivec2(k % 3, k / 3) - 1), ivec2(0), last);
+        float d = luminance(texelFetch(exact_mean, tap, 0).rgb) - luminance(preset_radiance(tap));
+        difference += d * d;
+        deviations += texelFetch(exact_sum, tap, 0).a;
+    }
+    float n = exact_samples;
+    float variance = deviations / max(n * (n - 1.0), 1.0);
+    float bias = max(difference - VARIANCE_DOUBTED * variance, 0.0);
+    float estimated = bias / max(bias + variance, 1e-30) * min(1.0, (n - 1.0) / SAMPLES_OF_ESTIMATE);
+    return max(estimated, n / (n + SAMPLES_TRUSTED));
+}
+
+vec3 shown_radiance() {
+    ivec2 at = ivec2(gl_FragCoord.xy);
+    return mix(preset_radiance(at), texelFetch(exact_mean, at, 0).rgb, weight_of_exact(at));
+}
+#else
+vec3 shown_radiance() { return preset_radiance(ivec2(gl_FragCoord.xy)); }
+#endif
 
 void main() {
     vec3 linear_rgb = shown_radiance();

@@ -3,12 +3,10 @@
 #include "shared/frame.h"
 #include "lib/materials.glsl"
 #include "lib/math.glsl"
-#include "shared/trace.h"
+#include "lib/surface.glsl"
 
 layout(binding = 4) uniform sampler2D radiance;  // rgb; a: frames kept
-layout(binding = 5) uniform sampler2D position;
-layout(binding = 6) uniform sampler2D normal;
-layout(binding = 7) uniform usampler2D material;
+layout(binding = 5) uniform sampler2D surface;
 
 uniform ivec2 step_px;  // distance and direction of neighbouring taps
 
@@ -18,6 +16,8 @@ const float KERNEL[3] = float[3](6.0 / 16.0, 4.0 / 16.0, 1.0 / 16.0);  // binomi
 
 // With fewer frames the brightness of a pixel behind water says nothing yet.
 const float FRAMES_OF_NOISE = 12.0;
+
+const float WIDE_FRAMES = 8.0;
 
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
@@ -30,27 +30,29 @@ void main() {
     }
     out_radiance = vec4(sum, center.a);
 #else
-    uint id = texelFetch(material, at, 0).r;
-    if (id == SURFACE_SKY) {
+    vec4 here = texelFetch(surface, at, 0);
+    if (here.w == SURFACE_CODE_SKY) {
         out_radiance = center;
         return;
     }
-    vec4 here = texelFetch(position, at, 0);
-    vec3 n = texelFetch(normal, at, 0).xyz;
+    vec3 n = surface_normal(here.w);
     // Where frames have been averaged there is less noise to trade for sharpness.
     float strength = min(1.0, 6.0 / center.a);
-    bool clear = transmits(id);
+    // Wider passes are for pixels that have next to no history.
+    if (max(step_px.x, step_px.y) > 1) strength = max(0.0, 1.0 - center.a / WIDE_FRAMES);
+    if (strength == 0.0) {
+        out_radiance = center;
+        return;
+    }
+    bool clear = transmits(surface_material(here.w));
     float center_luminance = luminance(center.rgb);
-    // Pixels of one plane: the tolerance covers what a pixel spans at a grazing view.
-    float plane_tolerance = 0.01 + 1e-5 * here.w;
+    float tolerance = plane_tolerance(here, frame.camera_position_vox.xyz);
     vec3 sum = center.rgb * KERNEL[0];
     float weight_sum = KERNEL[0];
     for (int i = -2; i <= 2; ++i) {
         ivec2 tap = at + i * step_px;
         if (i == 0 || any(lessThan(tap, ivec2(0))) || any(greaterThan(tap, last))) continue;
-        if (texelFetch(material, tap, 0).r != id) continue;
-        if (any(greaterThan(abs(texelFetch(normal, tap, 0).xyz - n), vec3(0.01)))) continue;
-        if (abs(dot(texelFetch(position, tap, 0).xyz - here.xyz, n)) > plane_tolerance) continue;
+        if (!lies_on(here, texelFetch(surface, tap, 0), n, tolerance)) continue;
         vec3 value = texelFetch(radiance, tap, 0).rgb;
         float w = KERNEL[abs(i)] * strength;
         // Behind a clear surface lies a picture of its own: keep its edges by brightness, once there is more to see

@@ -1,44 +1,75 @@
 // Reverse reprojection: the history of what this pixel shows, from four tested taps of the previous frame, blended
-// with the new frame.
+// with the new frame. HISTORY_UPSAMPLE: fewer pixels are traced than shown; a pixel that is not keeps its history as it
+// is, or takes the light of traced ones that show its surface.
 #include "lib/camera.glsl"
 #include "lib/materials.glsl"
 #include "lib/math.glsl"
-#include "shared/trace.h"
+#include "lib/surface.glsl"
+#ifdef HISTORY_UPSAMPLE
+#include "lib/nearest_surface.glsl"
+#include "lib/scatter.glsl"
+#endif
 
 layout(binding = BINDING_BRICK_CHANGED) uniform usampler3D brick_changed;
 layout(binding = 4) uniform sampler2D radiance;
-layout(binding = 5) uniform sampler2D position;
-layout(binding = 6) uniform sampler2D normal;
-layout(binding = 7) uniform usampler2D material;
-layout(binding = 8) uniform sampler2D previous_radiance;  // rgb; a: frames kept
-layout(binding = 9) uniform sampler2D previous_position;
-layout(binding = 10) uniform sampler2D previous_normal;
-layout(binding = 11) uniform usampler2D previous_material;
+layout(binding = 5) uniform sampler2D surface;
+layout(binding = 6) uniform sampler2D previous_radiance;  // rgb; a: frames kept
+layout(binding = 7) uniform sampler2D previous_surface;
 
+#ifdef HISTORY_UPSAMPLE
+layout(location = 1) out vec4 out_surface;
+#endif
 #ifdef HISTORY_MOMENTS
-layout(binding = 12) uniform sampler2D previous_moments;
+layout(binding = 8) uniform sampler2D previous_moments;
 uniform bool has_moments;  // the previous frame wrote some
 #endif
 
 uniform uint previous_version;  // of the world, when the previous frame was made
 
+#ifndef HISTORY_BLEND
+layout(binding = 9) uniform sampler2D retraced;         // the previous frame's paths in this world, some of them
+layout(binding = 10) uniform sampler2D traced_before;   // the previous frame's light as traced
+uniform bool is_retraced;
+#endif
+
 layout(location = 0) out vec4 out_radiance;  // rgb; a: frames kept, this one included
 #ifdef HISTORY_MOMENTS
 // r: variance of one frame's luminance; g: sum of the squared weights of the frames in the mean, so that r * g is the
 // mean's variance; b: frames that r is made of
+#ifdef HISTORY_UPSAMPLE
+layout(location = 2) out vec4 out_moments;
+#else
 layout(location = 1) out vec4 out_moments;
+#endif
 #endif
 
 layout(std430, binding = 0) buffer RejectedBlock { uint rejected_samples; };
 
-// History kept where cells changed: short enough to follow, long enough not to flicker. What shines through moving
-// water takes many bounces and is noisier by far than the lag that more frames bring.
+// History kept where cells changed: short enough to follow, long enough not to flicker. With ten frames of moving water
+// its error was twice as large.
 const float FRAMES_KEPT_NEAR_CHANGE = 3.0;
-const float FRAMES_KEPT_IN_MOVING_WATER = 10.0;
-// Distance from the plane of the first hit (vox) within which two hits are on one surface, plus its growth with
-// distance from the eye (float32 rounding of positions).
-const float PLANE_TOLERANCE_VOX = 0.01;
-const float PLANE_TOLERANCE_PER_VOX = 1e-5;
+
+#ifndef HISTORY_BLEND
+// Frames that may be kept of what the previous frame showed at `ndc`: their bias by the share d of the light that the
+// change of the world took or gave outweighs their noise beyond 1 / d^2.
+float frames_kept_of_light(vec2 ndc) {
+    ivec2 last = textureSize(retraced, 0) - 1;
+    ivec2 last_traced = textureSize(traced_before, 0) - 1;
+    ivec2 base = ivec2(floor((ndc * 0.5 + 0.5) * vec2(last_traced + 1) / float(RETRACE_STRIDE) - 0.5));
+    float difference = 0.0;
+    float sum = 1e-20;
+    for (int k = 0; k < 4; ++k) {
+        ivec2 cell = clamp(base + ivec2(k & 1, k >> 1), ivec2(0), last);
+        ivec2 pixel = min(cell * int(RETRACE_STRIDE) + int(RETRACE_STRIDE) / 2, last_traced);
+        float now = luminance(texelFetch(retraced, cell, 0).rgb);
+        float before = luminance(texelFetch(traced_before, pixel, 0).rgb);
+        difference += abs(now - before);
+        sum += max(now, before);
+    }
+    float share = min(1.0, difference / sum);
+    return is_finite(share) ? 1.0 / max(share * share, 1e-6) - 0.9 : 0.1;
+}
+#endif
 
 bool changed_since(vec3 at_vox) {
     ivec3 cell = clamp(ivec3(floor(at_vox)), ivec3(0), frame.world_size_vox.xyz - 1);
@@ -47,12 +78,107 @@ bool changed_since(vec3 at_vox) {
     return int(stamp - previous_version) > 0;
 }
 
+// The traced pixels that this frame has for a shown one.
+struct Traced {
+    vec4 surface;    // of the shown pixel
+    ivec2 taps[4];   // around it
+    vec4 weights;    // of their light; all of it where one of them was traced for this pixel
+    bool own;        // that is so
+    bool met;        // some of them show its surface
+};
+
+#ifdef HISTORY_UPSAMPLE
+#define SAMPLES_A_FRAME (float(frame.size_px.x * frame.size_px.y) / float(frame.size_px.z * frame.size_px.w))
+
+// History of so many samples is worth more than this frame's light of neighbours.
+const float SAMPLES_WITHOUT_NEIGHBOURS = 4.0;
+// What the light of neighbours counts for, in samples: of the same surface, and of others where there is none.
+const float NEIGHBOURS_WORTH = 0.25;
+const float STRANGERS_WORTH = 1e-4;
+
+Traced traced_around(ivec2 at) {
+    ivec2 last = frame.size_px.xy - 1;
+    vec2 cell = vec2(frame.size_px.zw) / vec2(frame.size_px.xy);
+    // The traced pixel whose cell this is may stand for a pixel on either side.
+    ivec2 home = min(ivec2((vec2(at) + 0.5) / cell), last);
+    ivec2 base = home - ivec2(greaterThan(shown_pixel(home), at));
+    Traced traced;
+    traced.met = true;
+    vec4 seen[4];
+    vec4 own = vec4(0.0);
+    for (int k = 0; k < 4; ++k) {
+        traced.taps[k] = clamp(base + ivec2(k & 1, k >> 1), ivec2(0), last);
+        ivec2 away = shown_pixel(traced.taps[k]) - at;
+        vec2 near = max(vec2(0.0), 1.0 - abs(vec2(away)) / cell);
+        traced.weights[k] = near.x * near.y + 1e-3;
+        seen[k] = texelFetch(surface, traced.taps[k], 0);
+        own[k] = float(away == ivec2(0));
+        if (away == ivec2(0)) traced.surface = seen[k];
+    }
+    traced.own = dot(own, own) > 0.0;
+    if (traced.own) {
+        traced.weights = own / dot(own, own);  // the last tap may be there twice
+        return traced;
+    }
+    vec2 size = vec2(frame.size_px.zw);
+    vec3 eye = frame.camera_position_vox.xyz;
+    vec3 dir = normalize(camera_ray((2.0 * gl_FragCoord.xy - size) / size));
+    traced.surface = on_plane_of(seen[0], eye, dir);
+    vec3 n = surface_normal(seen[0].w);
+    float tolerance = plane_tolerance(seen[0], eye);
+    bool search = false;
+    for (int k = 1; k < 4; ++k) search = search || !lies_on(seen[0], seen[k], n, tolerance);
+    // What is thinner than the gaps between traced pixels was seen when its turn came.
+    vec2 before;
+    bool was_seen = frame.world_size_vox.w != 0 && previous_ndc(traced.surface.xyz, before) &&
+                    all(lessThan(abs(before), vec2(1.0)));
+    vec2 at_before = (before * 0.5 + 0.5) * size;
+    if (was_seen && !search)
+        search = !lies_on(seen[0], texelFetch(previous_surface, ivec2(at_before), 0), n, tolerance);
+    // A loop that runs at most once: llvmpipe runs the body of a branch for lanes that do not take it.
+    for (bool once = search; once; once = false) {
+        float t;
+        traced.surface = nearest_surface(seen, eye, dir, t);
+        if (was_seen) {
+            ivec2 corner = ivec2(floor(at_before - 0.49));
+            vec4 seen_before[4];
+            for (int k = 0; k < 4; ++k) {
+                ivec2 tap = clamp(corner + ivec2(k & 1, k >> 1), ivec2(0), frame.size_px.zw - 1);
+                seen_before[k] = texelFetch(previous_surface, tap, 0);
+            }
+            float t_before;
+            vec4 found = nearest_surface(seen_before, eye, dir, t_before);
+            if (t_before < t || (t == TRAVERSAL_NEVER && found.w == SURFACE_CODE_SKY)) traced.surface = found;
+        }
+        n = surface_normal(traced.surface.w);
+        tolerance = plane_tolerance(traced.surface, eye);
+        for (int k = 0; k < 4; ++k)
+            if (!lies_on(traced.surface, seen[k], n, tolerance)) traced.weights[k] *= 1e-6;
+        traced.met = dot(traced.weights, vec4(1.0)) > 1e-4;
+    }
+    traced.weights /= dot(traced.weights, vec4(1.0));
+    return traced;
+}
+
+vec3 light_of(Traced traced) {
+    vec3 sum = vec3(0.0);
+    for (int k = 0; k < 4; ++k) sum += traced.weights[k] * texelFetch(radiance, traced.taps[k], 0).rgb;
+    return sum;
+}
+#else
+Traced traced_around(ivec2 at) {
+    return Traced(texelFetch(surface, at, 0), ivec2[4](at, at, at, at), vec4(1.0, 0.0, 0.0, 0.0), true, true);
+}
+vec3 light_of(Traced traced) { return texelFetch(radiance, traced.taps[0], 0).rgb; }
+#define SAMPLES_A_FRAME 1.0
+#endif
+
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
-    vec3 value = texelFetch(radiance, at, 0).rgb;
-    vec4 here = texelFetch(position, at, 0);
-    vec3 n = texelFetch(normal, at, 0).xyz;
-    uint id = texelFetch(material, at, 0).r;
+    Traced traced = traced_around(at);
+    vec4 here = traced.surface;
+    vec3 n = surface_normal(here.w);
+    uint id = surface_material(here.w);
 
     vec4 history = vec4(0.0);
     float weight_sum = 0.0;
@@ -68,16 +194,13 @@ void main() {
         if (all(lessThan(abs(texel - nearest), vec2(0.01)))) texel = nearest;
         ivec2 base = ivec2(floor(texel));
         vec2 f = texel - vec2(base);
-        float tolerance = PLANE_TOLERANCE_VOX + PLANE_TOLERANCE_PER_VOX * here.w;
+        float tolerance = plane_tolerance(here, frame.camera_position_vox.xyz);
         for (int k = 0; k < 4; ++k) {
             ivec2 tap = base + ivec2(k & 1, k >> 1);
             vec2 w2 = mix(1.0 - f, f, vec2(k & 1, k >> 1));
             float w = w2.x * w2.y;
             if (w <= 0.0 || any(lessThan(tap, ivec2(0))) || any(greaterThanEqual(tap, ivec2(size)))) continue;
-            if (texelFetch(previous_material, tap, 0).r != id) continue;
-            if (any(greaterThan(abs(texelFetch(previous_normal, tap, 0).xyz - n), vec3(0.01)))) continue;
-            vec4 there = texelFetch(previous_position, tap, 0);
-            if (id != SURFACE_SKY && abs(dot(there.xyz - here.xyz, n)) > tolerance) continue;
+            if (!lies_on(here, texelFetch(previous_surface, tap, 0), n, tolerance)) continue;
             vec4 kept = texelFetch(previous_radiance, tap, 0);
             if (!is_finite(kept.rgb) || !is_finite(kept.a)) {
                 atomicAdd(rejected_samples, 1u);
@@ -95,19 +218,34 @@ void main() {
         history /= weight_sum;
         count = history.a;
         if (id != SURFACE_SKY && changed_since(here.xyz - 0.5 * n))
-            count = min(count, id == MATERIAL_WATER ? FRAMES_KEPT_IN_MOVING_WATER : FRAMES_KEPT_NEAR_CHANGE);
+            count = min(count, SAMPLES_A_FRAME * FRAMES_KEPT_NEAR_CHANGE);
         count = min(count, frame.history.y - 1.0);
-    }
-#ifdef HISTORY_BLEND
-    float alpha = count > 0.0 ? frame.history.x : 1.0;
-#else
-    float alpha = 1.0 / (count + 1.0);
+#ifndef HISTORY_BLEND
+        for (bool once = is_retraced && !is_moving(here.w); once; once = false)
+            count = min(count, SAMPLES_A_FRAME * frames_kept_of_light(ndc));
 #endif
-    out_radiance = vec4(count > 0.0 ? mix(history.rgb, value, alpha) : value, count + 1.0);
+    }
+    float worth = 1.0;
+#ifdef HISTORY_UPSAMPLE
+    if (!traced.own) worth = count < SAMPLES_WITHOUT_NEIGHBOURS ? (traced.met ? NEIGHBOURS_WORTH : STRANGERS_WORTH) : 0.0;
+    out_surface = here;
+#endif
+    vec3 value = history.rgb;
+    for (bool once = worth > 0.0 || count == 0.0; once; once = false) value = light_of(traced);
+#ifdef HISTORY_BLEND
+    float alpha = count > 0.0 ? min(1.0, frame.history.x * worth) : 1.0;
+#else
+    float alpha = count > 0.0 ? worth / (count + worth) : 1.0;
+#endif
+    out_radiance = vec4(count > 0.0 ? mix(history.rgb, value, alpha) : value, count + worth);
 #ifdef HISTORY_MOMENTS
     moments = count > 0.0 ? moments / weight_sum : vec3(0.0);
     if (!is_finite(moments)) moments = vec3(0.0);
-    if (count > 0.0) {
+    if (count == 0.0) {
+        out_moments = vec4(0.0, 1.0, 0.0, 0.0);
+    } else if (!traced.own) {
+        out_moments = vec4(moments, 0.0);
+    } else {
         // A history from before the moments were kept: the squares of its weights as they are in the long run.
 #ifdef HISTORY_BLEND
         float settled = alpha / (2.0 - alpha);
@@ -121,8 +259,6 @@ void main() {
         float share = 1.0 / (min(moments.b, frame.history.y - 1.0) + 1.0);
         out_moments = vec4(mix(moments.r, frame_variance, share),
                            (1.0 - alpha) * (1.0 - alpha) * moments.g + alpha * alpha, moments.b + 1.0, 0.0);
-    } else {
-        out_moments = vec4(0.0, 1.0, 0.0, 0.0);
     }
 #endif
 }

@@ -1,30 +1,42 @@
-// Paths of one frame: mean radiance per pixel and the surface seen.
+// Paths of one frame: mean radiance per pixel and the surface seen. Of all pixels, or of one in stride x stride.
 #include "lib/path.glsl"
 #include "lib/camera.glsl"
+#include "lib/scatter.glsl"
+#include "lib/surface.glsl"
 
 layout(location = 0) out vec4 out_radiance;  // rgb; a: 1
-layout(location = 1) out vec4 out_position;  // xyz: first hit (vox); w: distance from the eye
-layout(location = 2) out vec4 out_normal;    // xyz; 0 for sky
-layout(location = 3) out uint out_material;  // id; 255 for sky
+layout(location = 1) out vec4 out_surface;   // lib/surface.glsl
 #ifdef TRACE_COUNT
-layout(location = 4) out vec2 out_counts;    // bounces and steps, means over the paths
+layout(location = 2) out vec2 out_counts;    // bounces and steps, means over the paths
 #endif
+
+#ifdef TRACE_CLEAR
+layout(binding = BINDING_BRICK_CHANGED) uniform usampler3D brick_changed;
+uniform uint still_since;  // water in bricks that changed after this version of the world moves
+#endif
+
+uniform uint stride;
 
 layout(std430, binding = 0) buffer RejectedBlock { uint rejected_samples; };
 
 void main() {
-    uvec2 pixel = uvec2(gl_FragCoord.xy);
+    uvec2 pixel = min(uvec2(gl_FragCoord.xy) * stride + stride / 2u, uvec2(frame.size_px.xy) - 1u);
     vec3 sum = vec3(0.0);
     FirstSurface first;
 #ifdef TRACE_COUNT
     out_counts = vec2(0.0);
 #endif
     // From whole numbers: interpolated between corners, the rays of very wide views lose digits near the middle.
-    vec2 size = vec2(frame.size_px.xy);
-    vec2 ndc = (2.0 * gl_FragCoord.xy - size) / size;
+    bool scattered = option(OPTION_SCATTER);
+    vec2 size = vec2(scattered ? frame.size_px.zw : frame.size_px.xy);
+    vec2 center = scattered ? vec2(shown_pixel(ivec2(pixel))) + 0.5 : vec2(pixel) + 0.5;
+    vec2 ndc = (2.0 * center - size) / size;
     uint count = frame.counters.z;
     for (uint i = 0u; i < count; ++i) {
-        rng_seed(pixel, frame.counters.x, i, frame.counters.y);
+        if (option(OPTION_LOW_DISCREPANCY))
+            rng_seed_sequence(pixel, frame.counters.x * count + i, frame.counters.y);
+        else
+            rng_seed(pixel, frame.counters.x, i, frame.counters.y);
         vec2 at = ndc;
         if (option(OPTION_JITTER)) at += (2.0 * rng_vec2() - 1.0) / size;
         FirstSurface surface;
@@ -40,7 +52,13 @@ void main() {
             atomicAdd(rejected_samples, 1u);
     }
     out_radiance = vec4(sum, 1.0);
-    out_position = vec4(first.position_vox, first.distance_vox);
-    out_normal = vec4(first.normal, 0.0);
-    out_material = first.material;
+    out_surface = vec4(first.position_vox, surface_code(first.normal, first.material));
+#ifdef TRACE_CLEAR
+    if (first.material == MATERIAL_WATER) {
+        vec3 within = clamp(first.position_vox - 0.5 * first.normal, vec3(0.0), vec3(frame.world_size_vox.xyz - 1));
+        uint stamp = texelFetch(brick_changed, ivec3(within) >> BRICK_SHIFT, 0).r;
+        // Stamps wrap: compare by signed difference.
+        if (int(stamp - still_since) > 0) out_surface.w += SURFACE_MOVES;
+    }
+#endif
 }

@@ -2,18 +2,16 @@
 // SHOWN_VIEW: one of shared/views.h; VIEW_EXACT: history and variance come from exact mode's sums; VIEW_SINGLE: there
 // is no history.
 #include "shared/frame.h"
-#include "shared/trace.h"
 #include "shared/views.h"
 #include "lib/materials.glsl"
 #include "lib/math.glsl"
+#include "lib/surface.glsl"
 
-layout(binding = 4) uniform sampler2D position;    // w: distance from the eye
-layout(binding = 5) uniform sampler2D normal;
-layout(binding = 6) uniform usampler2D material;
-layout(binding = 7) uniform sampler2D counts;      // of the last frame
-layout(binding = 8) uniform sampler2D history;     // a: frames kept, exact: frames lost
-layout(binding = 9) uniform sampler2D moments;     // as temporal.frag writes them; exact: sums
-layout(binding = 10) uniform sampler2D correction; // exact: of the sums
+layout(binding = 4) uniform sampler2D surface;
+layout(binding = 5) uniform sampler2D counts;      // of the last frame
+layout(binding = 6) uniform sampler2D history;     // a: frames kept, exact: frames lost
+layout(binding = 7) uniform sampler2D moments;     // as temporal.frag writes them; exact: sums
+layout(binding = 8) uniform sampler2D correction;  // exact: of the sums
 
 layout(location = 0) out vec4 out_picture;
 
@@ -43,14 +41,15 @@ float variance_of_mean(ivec2 at) {
 
 vec3 value_at(ivec2 at) {
 #if SHOWN_VIEW == VIEW_ALBEDO
-    uint id = texelFetch(material, at, 0).r;
+    uint id = surface_material(texelFetch(surface, at, 0).w);
     return id == SURFACE_SKY ? vec3(0.0) : materials[id].base_roughness.rgb;
 #elif SHOWN_VIEW == VIEW_NORMAL
-    return texelFetch(normal, at, 0).xyz;
+    return surface_normal(texelFetch(surface, at, 0).w);
 #elif SHOWN_VIEW == VIEW_DEPTH
-    return vec3(texelFetch(material, at, 0).r == SURFACE_SKY ? VIEW_NOTHING : texelFetch(position, at, 0).w);
+    vec4 here = texelFetch(surface, at, 0);
+    return vec3(here.w == SURFACE_CODE_SKY ? VIEW_NOTHING : distance(here.xyz, frame.camera_position_vox.xyz));
 #elif SHOWN_VIEW == VIEW_MATERIAL
-    return vec3(texelFetch(material, at, 0).r);
+    return vec3(surface_material(texelFetch(surface, at, 0).w));
 #elif SHOWN_VIEW == VIEW_BOUNCES
     return texelFetch(counts, at, 0).rrr;
 #elif SHOWN_VIEW == VIEW_STEPS
@@ -80,8 +79,13 @@ vec3 color_of(vec3 value) {
 }
 
 void main() {
-    ivec2 at = ivec2(gl_FragCoord.xy * vec2(frame.size_px.xy) / vec2(frame.size_px.zw));
-    vec3 value = value_at(min(at, frame.size_px.xy - 1));
+#if SHOWN_VIEW == VIEW_BOUNCES || SHOWN_VIEW == VIEW_STEPS
+    ivec2 size = textureSize(counts, 0);
+#else
+    ivec2 size = textureSize(surface, 0);
+#endif
+    ivec2 at = ivec2(gl_FragCoord.xy * vec2(size) / vec2(frame.size_px.zw));
+    vec3 value = value_at(min(at, size - 1));
 #ifdef VIEW_RAW
     out_picture = vec4(value, 1.0);
 #else

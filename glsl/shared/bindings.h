@@ -7,18 +7,19 @@
 #define BINDING_MATERIALS 1
 // Textures that every ray needs; a pass's own inputs are 4 to 11
 #define BINDING_CELLS 0
-#define BINDING_BRICK_DISTANCE 1
 #define BINDING_ALBEDO_TABLE 2
 #define BINDING_BRICK_CHANGED 3
 #define BINDING_FIRST_INPUT 4
 #define BINDING_METAL_ALBEDO_TABLE 12
 #define BINDING_GLASS_ALBEDO_TABLE 13
 
-// Images of the passes that change cells
+// Images of the passes that change cells, and of rays: cells and brick rooms
 #define IMAGE_CELLS 0
 #define IMAGE_BRICK_CHANGED 1
 #define IMAGE_ACTING_HEAD 2
 #define IMAGE_BUILDING_HEAD 3
+#define IMAGE_BRICK_ROOMS 4
+#define IMAGE_BENCH_RAYS 5
 // Storage buffers of theirs; 0 is a pass's own
 #define STORAGE_CHANGED_TICK 1
 #define STORAGE_ACTIVE_NEXT 2
@@ -32,8 +33,8 @@
 // And of those that look at what changed
 #define STORAGE_NEW_CHANGES 9
 #define STORAGE_MATTER 10
-#define STORAGE_BRICK_FLIPS 1
-#define STORAGE_DISTANCE_BOXES 2
+#define STORAGE_ROOM_GROUPS 1
+#define STORAGE_ROOM_LINES 2
 #define STORAGE_STALE_TILES 1
 #define STORAGE_TILE_LISTED 2
 #define STORAGE_TILE_COUNTS 3
@@ -46,7 +47,5 @@
 // Side of a brick in voxels, and its logarithm. 4: a primary ray over the lake takes 17 steps, with 8 it took 28
 #define BRICK_SIDE 4
 #define BRICK_SHIFT 2
-// Largest stored distance between bricks
-#define BRICK_DISTANCE_MAX 31
 
 #endif

@@ -33,7 +33,7 @@
     F(vec4, trace_limits)      /* max distance (vox), metres per voxel, firefly limit (0: none), unused */ \
     F(ivec4, trace_options)    /* max bounces, roulette after (bounces), max diffuse bounces, OPTION bits */       \
     F(ivec4, size_px)          /* traced width, height; shown width, height */                           \
-    F(vec4, history)           /* alpha (blend), cap (samples), unused, unused */                        \
+    F(vec4, history)           /* alpha (blend), cap (samples), place of scattered pixels in their cells */                        \
     F(vec4, display)           /* exposure factor, tone map, unused, unused */
 
 #ifdef __cplusplus

@@ -11,6 +11,8 @@ TARN_CONSTANT int OPTION_UNIFORM_DIFFUSE = 4;
 TARN_CONSTANT int OPTION_JITTER = 8;
 TARN_CONSTANT int OPTION_STRAIGHT_SUNLIGHT = 16;
 TARN_CONSTANT int OPTION_PREETHAM_SKY = 32;
+TARN_CONSTANT int OPTION_LOW_DISCREPANCY = 64;
+TARN_CONSTANT int OPTION_SCATTER = 128;  // lib/scatter.glsl
 
 // Below this alpha (roughness^2) a surface is a perfect mirror or interface.
 TARN_CONSTANT float ALPHA_SMOOTH = 1e-3f;
@@ -25,6 +27,9 @@ TARN_CONSTANT float ALBEDO_FACET_SPREAD = 2.0f;
 
 // In place of a material's id where a ray meets the sky.
 TARN_CONSTANT TARN_UINT SURFACE_SKY = 255u;
+
+// Of the pixels, along x and y, whose last path is traced again when the world changed.
+TARN_CONSTANT TARN_UINT RETRACE_STRIDE = 3u;
 
 // Most frames in exact mode's mean: a counter of them and of this one ends there.
 TARN_CONSTANT TARN_UINT FRAMES_KEPT_MAX = 0xfffffffeu;

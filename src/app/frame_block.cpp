@@ -28,6 +28,17 @@ void set_sun(FrameBlock& block, const Settings& s) {
         glm::vec4(disc ? glm::vec3(irradiance / projected) : glm::vec3(0), exists ? 1.0f : 0.0f);
 }
 
+// Of the shown pixel for which a traced one stands in this frame: all places in turn, neighbours in time far
+// apart.
+glm::vec2 place_in_cell(const FrameInputs& in) {
+    constexpr int most = 4;
+    const int n = std::min((in.shown_px.x + in.traced_px.x - 1) / in.traced_px.x, most);
+    constexpr int strides[most] = {1, 3, 4, 7};  // without a common divisor with n^2
+    const int stride = strides[n - 1];
+    const int place = static_cast<int>(in.frame_index % static_cast<std::uint32_t>(n * n)) * stride % (n * n);
+    return (glm::vec2(place % n, place / n) + 0.5f) / static_cast<float>(n);
+}
+
 }  // namespace
 
 FrameBlock make_frame_block(const FrameInputs& in) {
@@ -54,14 +65,16 @@ FrameBlock make_frame_block(const FrameInputs& in) {
     if (s.caustics) options |= OPTION_CAUSTICS;
     if (s.diffuse_sampling == DiffuseSampling::Uniform) options |= OPTION_UNIFORM_DIFFUSE;
     if (s.jitter) options |= OPTION_JITTER;
+    if (s.low_discrepancy) options |= OPTION_LOW_DISCREPANCY;
     if (s.straight_sunlight) options |= OPTION_STRAIGHT_SUNLIGHT;
+    if (in.scattered) options |= OPTION_SCATTER;
     if (s.sky_model == SkyModel::Preetham) {
         set_clear_sky(block, s);
         options |= OPTION_PREETHAM_SKY;
     }
     block.trace_options = {s.max_bounces, s.roulette_after, s.max_diffuse_bounces, options};
     block.size_px = {in.traced_px, in.shown_px};
-    block.history = {s.history_alpha, static_cast<float>(s.history_cap), 0, 0};
+    block.history = {s.history_alpha, static_cast<float>(s.history_cap), place_in_cell(in)};
     block.display = {std::exp2(s.exposure_ev), s.tone_map == ToneMap::Linear ? 1.0f : 0.0f, 0, 0};
     return block;
 }

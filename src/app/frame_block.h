@@ -17,6 +17,7 @@ struct FrameInputs {
     std::uint32_t frame_index;
     std::uint32_t frames_kept;  // summed so far in exact mode
     glm::ivec2 traced_px, shown_px;
+    bool scattered = false;  // each traced pixel stands for one shown pixel, another one in each frame
 };
 
 FrameBlock make_frame_block(const FrameInputs& inputs);

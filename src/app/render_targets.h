@@ -4,18 +4,18 @@
 
 #include "gl/framebuffer.h"
 #include "gl/texture.h"
+#include "shared/trace.h"
 
 namespace tarn {
 
 // What one frame sees; two sets, current and previous.
 struct FrameTargets {
-    gl::Texture position, normal, material, history;
+    gl::Texture surface;  // glsl/lib/surface.glsl
+    gl::Texture history;
 
     FrameTargets() = default;
     explicit FrameTargets(glm::ivec2 size)
-        : position({.label = "position", .format = GL_RGBA32F, .size = {size, 0}}),
-          normal({.label = "normal", .format = GL_RGBA16F, .size = {size, 0}}),
-          material({.label = "material", .format = GL_R8UI, .size = {size, 0}}),
+        : surface({.label = "surface", .format = GL_RGBA32F, .size = {size, 0}}),
           history({.label = "history", .format = GL_RGBA32F, .size = {size, 0}, .linear = true}) {}
 };
 
@@ -29,36 +29,55 @@ struct Sums {
           correction({.label = "correction", .format = GL_RGBA32F, .size = {size, 0}}) {}
 };
 
-// Everything that depends on the picture's size.
+// Everything that depends on the picture's size. Upsampled: fewer pixels are traced than history keeps.
 struct RenderTargets {
     glm::ivec2 traced_px, shown_px;
-    bool exact;
-    gl::Texture radiance, filtered[2], picture;
+    bool exact, upsampled;
+    gl::Texture radiance[2];  // traced; current and previous
+    gl::Texture filtered[2], picture;
+    gl::Texture traced_surface;  // upsampled
+    gl::Texture retraced;        // of one traced pixel in RETRACE_STRIDE^2
     FrameTargets frames[2];
     Sums sums[2];
-    gl::Framebuffer trace_target[2], history_target[2], filter_target[2], sums_target[2], picture_target;
+    gl::Framebuffer trace_target[2], history_target[2], filter_target[2], sums_target[2], picture_target,
+        retrace_target;
 
-    RenderTargets(glm::ivec2 traced, glm::ivec2 shown, bool exact_mode)
+    RenderTargets(glm::ivec2 traced, glm::ivec2 shown, bool exact_mode, bool upsampled_mode)
         : traced_px(traced),
           shown_px(shown),
           exact(exact_mode),
-          radiance({.label = "radiance", .format = GL_RGBA32F, .size = {traced, 0}, .linear = true}),
+          upsampled(upsampled_mode),
           picture({.label = "picture", .format = GL_RGBA8, .size = {shown, 0}}),
           picture_target("picture", {&picture}) {
+        const glm::ivec2 kept = kept_px();
         for (gl::Texture& texture : filtered)
             texture =
-                gl::Texture({.label = "filtered", .format = GL_RGBA32F, .size = {traced, 0}, .linear = true});
+                gl::Texture({.label = "filtered", .format = GL_RGBA32F, .size = {kept, 0}, .linear = true});
+        if (upsampled)
+            traced_surface =
+                gl::Texture({.label = "traced surface", .format = GL_RGBA32F, .size = {traced, 0}});
         for (int i = 0; i < 2; ++i) {
-            frames[i] = FrameTargets(traced);
-            trace_target[i] = gl::Framebuffer(
-                "trace", {&radiance, &frames[i].position, &frames[i].normal, &frames[i].material});
-            history_target[i] = gl::Framebuffer("history", {&frames[i].history});
+            radiance[i] =
+                gl::Texture({.label = "radiance", .format = GL_RGBA32F, .size = {traced, 0}, .linear = true});
+            frames[i] = FrameTargets(kept);
+            trace_target[i] = gl::Framebuffer("trace", {&radiance[i], &traced_surface_of(i)});
+            history_target[i] = upsampled
+                                    ? gl::Framebuffer("history", {&frames[i].history, &frames[i].surface})
+                                    : gl::Framebuffer("history", {&frames[i].history});
             filter_target[i] = gl::Framebuffer("filter", {&filtered[i]});
             if (exact) sums[i] = Sums(traced);
         }
+        const int stride = static_cast<int>(RETRACE_STRIDE);
+        retraced = gl::Texture(
+            {.label = "retraced", .format = GL_RGBA32F, .size = {(traced + stride - 1) / stride, 0}});
+        retrace_target = gl::Framebuffer("retrace", {&retraced});
         if (!exact) return;
         for (int i = 0; i < 2; ++i)
             sums_target[i] = gl::Framebuffer("sums", {&sums[i].sum, &sums[i].correction, &filtered[i]});
+    }
+    glm::ivec2 kept_px() const { return upsampled ? shown_px : traced_px; }
+    const gl::Texture& traced_surface_of(int set) const {
+        return upsampled ? traced_surface : frames[set].surface;
     }
 };
 

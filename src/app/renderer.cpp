@@ -2,120 +2,48 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
-#include "app/albedo_textures.h"
 #include "app/camera.h"
 #include "app/error_estimate.h"
 #include "app/frame_block.h"
-#include "app/render_targets.h"
-#include "app/stopwatch.h"
+#include "app/renderer_parts.h"
 #include "app/trace_needs.h"
-#include "app/views.h"
-#include "app/world_contents.h"
 #include "core/error.h"
-#include "gl/buffer.h"
 #include "gl/framebuffer.h"
-#include "passes/accumulate_pass.h"
 #include "passes/bricks.h"
-#include "passes/display_pass.h"
-#include "passes/emitters.h"
-#include "passes/filter_pass.h"
-#include "passes/pick_pass.h"
-#include "passes/temporal_pass.h"
-#include "passes/trace_programs.h"
 #include "shared/bindings.h"
 #include "shared/trace.h"
 
 namespace tarn {
 
-struct Renderer::Parts {
-    gl::Timers& timers;
-    WorldContents contents;
-    MaterialTable materials;
-    float metres_per_voxel;
-    std::uint32_t seed;
+namespace {
 
-    AlbedoTextures albedo = make_albedo_textures();
-    gl::Buffer frame_block{"frame block", sizeof(FrameBlock)};
-    gl::Buffer material_block{"materials", sizeof(make_material_block({}))};
-    gl::Buffer rejected{"rejected samples", sizeof(std::uint32_t)};
+// Water counts as moving for so many frames after a change.
+constexpr std::size_t moving_frames = 8;
 
-    // A program is built when first used: a run pays for the passes it needs.
-    double compile_ms = 0;
-    TracePrograms own_trace;  // of a renderer that is given none
-    TracePrograms& trace;
-    TraceFeatures always{};     // compiled in whatever the scene needs
-    bool exact_program = true;  // TracePrograms::Choice::exact of the last frame
-    bool effect_is_late = false;
-    std::optional<EmittersPass> emitters;
-    std::optional<TemporalPass> temporal[2][2];  // [blend][moments]
-    std::optional<FilterPass> filter[2];         // [gaussian]
-    std::optional<AccumulatePass> accumulate;
-    std::optional<DisplayPass> display[2];  // [radiance only]
-    std::optional<PickPass> pick[2];        // [through water]
-
-    std::optional<RenderTargets> targets;
-    Views views;
-    ErrorEstimate error;
-    FrameBlock block;   // of the last frame
-    Settings settings;  // of the last frame
-    int current = 0;    // which of the two sets the last frame wrote
-    bool has_history = false;
-    std::uint32_t world_change = 0;   // Simulation::last_change() seen by the last frame of exact mode
-    std::uint64_t world_version = 0;  // seen by the last frame
-    std::uint64_t lamps_edited = 0;   // emissive_edits() seen by the last frame
-    std::uint64_t frame_index = 0;
-    std::uint64_t frames_kept = 0;
-    const gl::Texture* shown = nullptr;  // radiance of the last frame
-
-    Parts(const Scene& scene, gl::Timers& timers_, TracePrograms* programs)
-        : timers(timers_),
-          contents(scene),
-          materials(scene.materials),
-          metres_per_voxel(scene.metres_per_voxel),
-          seed(scene.seed),
-          trace(programs != nullptr ? *programs : own_trace) {}
-
-    template <typename Pass, typename... Arguments>
-    Pass& built(std::optional<Pass>& pass, Arguments... arguments) {
-        if (!pass) {
-            const Stopwatch watch;
-            pass.emplace(arguments...);
-            compile_ms += watch.ms();
-        }
-        return *pass;
-    }
-    TraceShapes shapes(const Simulation& simulation) const;
-    const TracePass& choose_program(const Simulation& simulation);
-    void prepare_targets(const Settings& now, glm::ivec2 size_px);
-    void upload_frame(const Simulation& simulation, const Settings& now);
-    SurfaceBuffers surfaces(int set, const gl::Texture& radiance) const {
-        const FrameTargets& frame = targets->frames[set];
-        return {radiance, frame.position, frame.normal, frame.material};
-    }
-    void update_emitters(const Simulation& simulation);
-    const gl::Texture& accumulate_exact();
-    const gl::Texture& reproject_and_filter(const Simulation& simulation);
-    void show(const gl::Framebuffer& target, bool raw);
-};
+}  // namespace
 
 TraceShapes Renderer::Parts::shapes(const Simulation& simulation) const {
     const FrameTargets& frame = targets->frames[0];
     return {.cells = simulation.cells().small_like(),
-            .brick_distance = simulation.brick_distance().small_like(),
+            .brick_rooms = simulation.brick_rooms().small_like(),
+            .brick_changed = simulation.brick_changed().small_like(),
             .albedo_table = albedo.dielectric.small_like(),
             .metal_albedo_table = albedo.metal.small_like(),
             .glass_albedo_table = albedo.glass.small_like(),
-            .targets = {targets->radiance.small_like(), frame.position.small_like(),
-                        frame.normal.small_like(), frame.material.small_like()}};
+            .targets = {targets->radiance[0].small_like(), frame.surface.small_like()}};
+}
+
+TracePrograms::Choice Renderer::Parts::program_for(const Simulation& simulation, const Settings& of,
+                                                   const FrameBlock& in) {
+    const auto held = [&](std::size_t id) { return contents.may_hold(simulation, id); };
+    const TraceFeatures needed = with(always, needed_features(of, materials, in, held));
+    const TraceFeatures general = with(needed, general_features(of, materials));
+    return trace.choose(needed, general, shapes(simulation));
 }
 
 const TracePass& Renderer::Parts::choose_program(const Simulation& simulation) {
-    const auto held = [&](std::size_t id) { return contents.may_hold(simulation, id); };
-    const TraceFeatures needed = with(always, needed_features(settings, materials, block, held));
-    const TraceFeatures general = with(needed, general_features(settings, materials));
-    const TracePrograms::Choice choice = trace.choose(needed, general, shapes(simulation));
+    const TracePrograms::Choice choice = program_for(simulation, settings, block);
     // A setting takes effect with its program: history begins anew after this frame.
     effect_is_late = choice.exact && !exact_program;
     exact_program = choice.exact;
@@ -126,25 +54,24 @@ void Renderer::Parts::prepare_targets(const Settings& now, glm::ivec2 size_px) {
     const glm::ivec2 traced =
         glm::max(glm::ivec2(1), glm::ivec2(glm::round(glm::vec2(size_px) * now.resolution_scale)));
     const bool exact = now.history == History::Exact;
-    if (targets && targets->traced_px == traced && targets->shown_px == size_px && targets->exact == exact)
+    const bool averaged = now.history == History::Count || now.history == History::Blend;
+    const bool upsampled = averaged && now.guided_upsampling && traced != size_px;
+    if (targets && targets->traced_px == traced && targets->shown_px == size_px && targets->exact == exact &&
+        targets->upsampled == upsampled)
         return;
     views.drop_targets();  // before the new ones take memory
     targets.reset();
-    targets.emplace(traced, size_px, exact);
+    targets.emplace(traced, size_px, exact, upsampled);
     has_history = false;
 }
 
 void Renderer::Parts::upload_frame(const Simulation& simulation, const Settings& now) {
     const bool exact = now.history == History::Exact;
     if (difference(now, settings) >= SettingEffect::IMAGE) has_history = false;
-    const bool eye_moved = now.camera_position_vox != settings.camera_position_vox ||
-                           now.camera_yaw_deg != settings.camera_yaw_deg ||
-                           now.camera_pitch_deg != settings.camera_pitch_deg ||
-                           now.camera_fov_deg != settings.camera_fov_deg;
     // Exact mode keeps no frame of another view or another world.
     if (exact) {
         const std::uint32_t change = simulation.last_change();
-        if (eye_moved || change != world_change) has_history = false;
+        if (!same_eye(now, settings) || change != world_change) has_history = false;
         world_change = change;
     }
     // A lamp that was built or taken lights all at once; histories behind water would keep its image.
@@ -157,7 +84,7 @@ void Renderer::Parts::upload_frame(const Simulation& simulation, const Settings&
     apply_water_settings(now, materials);
     const auto entries = make_material_block(materials);
     material_block.upload(entries);
-    const FrameBlock before = block;
+    block_before = block;
     block = make_frame_block({.settings = now,
                               .world_size_vox = simulation.size_vox(),
                               .metres_per_voxel = metres_per_voxel,
@@ -165,8 +92,9 @@ void Renderer::Parts::upload_frame(const Simulation& simulation, const Settings&
                               .frame_index = static_cast<std::uint32_t>(frame_index),
                               .frames_kept = static_cast<std::uint32_t>(frames_kept),
                               .traced_px = targets->traced_px,
-                              .shown_px = targets->shown_px});
-    if (has_history) set_previous_eye(block, before);
+                              .shown_px = targets->shown_px,
+                              .scattered = targets->upsampled});
+    if (has_history) set_previous_eye(block, block_before);
     block.world_size_vox.w = has_history ? 1 : 0;
     frame_block.upload(std::span(&block, 1));
     frame_block.bind_uniform(BINDING_FRAME);
@@ -181,10 +109,42 @@ void Renderer::Parts::update_emitters(const Simulation& simulation) {
                 timers);
 }
 
+TracePass::Inputs Renderer::Parts::trace_inputs(const Simulation& simulation, const TraceFeatures& features) {
+    return {.cells = simulation.cells(),
+            .brick_rooms = simulation.brick_rooms(),
+            .albedo_table = albedo.dielectric,
+            .metal_albedo_table = albedo.metal,
+            .glass_albedo_table = albedo.glass,
+            .emitters = features.emitters ? &*emitters : nullptr,
+            .rejected = rejected,
+            .brick_changed = simulation.brick_changed(),
+            .still_since = versions.front()};
+}
+
+bool Renderer::Parts::world_changed(const Simulation& simulation) const {
+    if (simulation.version() == world_version) return false;
+    // Versions wrap: compare by signed difference.
+    const std::uint32_t since = simulation.last_change() - static_cast<std::uint32_t>(world_version);
+    return since != 0 && since <= INT32_MAX;
+}
+
+// Some of the last frame's paths, with its eye and its random numbers, in the world as it is now. False where
+// the world has not changed or nothing asks for it.
+bool Renderer::Parts::retrace(const Simulation& simulation, const TracePass& pass) {
+    if (settings.history != History::Count || !settings.retrace_changes || !has_history) return false;
+    if (!world_changed(simulation)) return false;
+    frame_block.upload(std::span(&block_before, 1));
+    TracePass::Inputs inputs = trace_inputs(simulation, pass.features());
+    inputs.stride = RETRACE_STRIDE;
+    pass.record(inputs, {.target = targets->retrace_target}, timers);
+    frame_block.upload(std::span(&block, 1));
+    return true;
+}
+
 const gl::Texture& Renderer::Parts::accumulate_exact() {
     const Sums& previous = targets->sums[1 - current];
     built(accumulate)
-        .record({.radiance = targets->radiance,
+        .record({.radiance = targets->radiance[current],
                  .previous_sum = previous.sum,
                  .previous_correction = previous.correction,
                  .previous_mean = targets->filtered[1 - current],
@@ -193,17 +153,21 @@ const gl::Texture& Renderer::Parts::accumulate_exact() {
     return targets->filtered[current];
 }
 
-const gl::Texture& Renderer::Parts::reproject_and_filter(const Simulation& simulation) {
-    const gl::Texture* radiance = &targets->radiance;
+const gl::Texture& Renderer::Parts::reproject_and_filter(const Simulation& simulation, bool retraced) {
+    const gl::Texture* radiance = &targets->radiance[current];
     if (settings.history != History::None) {
         const bool blend = settings.history == History::Blend;
         const bool moments = views.keeps_moments();
-        built(temporal[blend][moments], blend, moments)
-            .record({.current = surfaces(current, targets->radiance),
+        const bool upsample = targets->upsampled;
+        built(temporal[blend][moments][upsample], blend, moments, upsample)
+            .record({.current = {targets->radiance[current], targets->traced_surface_of(current)},
                      .previous = surfaces(1 - current, targets->frames[1 - current].history),
+                     .cells = simulation.cells(),
                      .brick_changed = simulation.brick_changed(),
                      .previous_version = static_cast<std::uint32_t>(world_version),
                      .rejected = rejected,
+                     .traced_before = retraced ? &targets->radiance[1 - current] : nullptr,
+                     .retraced = retraced ? &targets->retraced : nullptr,
                      .previous_moments = views.previous_moments(current)},
                     {.history = views.history_target(*targets, current)}, timers);
         radiance = &targets->frames[current].history;
@@ -223,10 +187,38 @@ const gl::Texture& Renderer::Parts::reproject_and_filter(const Simulation& simul
     return *radiance;
 }
 
+void Renderer::Parts::show_picture(const gl::Framebuffer& target, bool raw) {
+    const Refinement& r = refinement;
+    DisplayPass::Inputs inputs{.radiance = *shown};
+    const bool refined = r.samples > 0;
+    if (refined) {
+        inputs.exact_mean = &r.targets->filtered[r.current];
+        inputs.exact_sum = &r.targets->sums[r.current].sum;
+        inputs.exact_samples = r.samples;
+    }
+    built(display[raw][refined], raw, refined).record(inputs, {.picture = target}, timers);
+}
+
+void Renderer::Parts::render_preset(const Simulation& simulation, const Settings& now, glm::ivec2 size_px) {
+    prepare_targets(now, size_px);
+    upload_frame(simulation, now);
+    current = 1 - current;
+    const TracePass& pass = choose_program(simulation);
+    if (pass.features().emitters) update_emitters(simulation);
+    views.prepare(settings, *targets, has_history);
+    const bool retraced = retrace(simulation, pass);
+    pass.record(trace_inputs(simulation, pass.features()), {.target = views.trace_target(*targets, current)},
+                timers);
+    shown = settings.history == History::Exact ? &accumulate_exact()
+                                               : &reproject_and_filter(simulation, retraced);
+    has_history = !effect_is_late;
+    frames_kept = std::min<std::uint64_t>(frames_kept + 1, FRAMES_KEPT_MAX);
+}
+
 // The last frame: its radiance, or the view of it that is asked for.
 void Renderer::Parts::show(const gl::Framebuffer& target, bool raw) {
     if (settings.view == ViewKind::Picture)
-        built(display[raw], raw).record({.radiance = *shown}, {.picture = target}, timers);
+        show_picture(target, raw);
     else
         views.show(*targets, current, raw, target, timers);
 }
@@ -239,34 +231,23 @@ Renderer::~Renderer() = default;
 const gl::Texture& Renderer::render(const Simulation& simulation, const Settings& settings,
                                     glm::ivec2 size_px) {
     Parts& p = *parts_;
-    p.prepare_targets(settings, size_px);
-    p.upload_frame(simulation, settings);
-    p.current = 1 - p.current;
-
-    const TracePass& trace = p.choose_program(simulation);
-    if (trace.features().emitters) p.update_emitters(simulation);
-    p.views.prepare(settings, *p.targets, p.has_history);
-    trace.record({.cells = simulation.cells(),
-                  .brick_distance = simulation.brick_distance(),
-                  .albedo_table = p.albedo.dielectric,
-                  .metal_albedo_table = p.albedo.metal,
-                  .glass_albedo_table = p.albedo.glass,
-                  .emitters = trace.features().emitters ? &*p.emitters : nullptr,
-                  .rejected = p.rejected},
-                 {.target = p.views.trace_target(*p.targets, p.current)}, p.timers);
-    p.shown =
-        settings.history == History::Exact ? &p.accumulate_exact() : &p.reproject_and_filter(simulation);
+    p.versions.resize(moving_frames, static_cast<std::uint32_t>(simulation.version()));
+    if (p.is_at_rest(simulation, settings, size_px))
+        p.refine(simulation, settings);
+    else
+        p.render_preset(simulation, settings, size_px);
     p.show(p.targets->picture_target, false);
 
-    p.has_history = !p.effect_is_late;
     p.world_version = simulation.version();
+    p.versions.pop_front();
+    p.versions.push_back(static_cast<std::uint32_t>(p.world_version));
     ++p.frame_index;
-    p.frames_kept = std::min<std::uint64_t>(p.frames_kept + 1, FRAMES_KEPT_MAX);
     return p.targets->picture;
 }
 
 void Renderer::world_replaced() {
     parts_->emitters.reset();
+    parts_->versions.clear();
     reset_history();
 }
 
@@ -358,7 +339,7 @@ void Renderer::measure_error() {
         p.targets->shown_px,
         [&](const gl::Framebuffer& to) { p.views.show_variance(*p.targets, p.current, to, p.timers); },
         [&](const gl::Framebuffer& to) {
-            p.built(p.display[1], true).record({.radiance = *p.shown}, {.picture = to}, p.timers);
+            p.built(p.display[1][0], true, false).record({.radiance = *p.shown}, {.picture = to}, p.timers);
         },
         p.timers);
 }
@@ -368,6 +349,7 @@ std::optional<double> Renderer::estimated_error(bool wait) const {
 }
 
 std::uint64_t Renderer::samples() const {
+    if (parts_->refinement.samples > 0) return parts_->refinement.samples;
     const Settings& s = parts_->settings;
     std::uint64_t frames = 1;
     if (s.history == History::Exact) frames = parts_->frames_kept;
@@ -399,9 +381,10 @@ std::vector<std::string> Renderer::poll_reload() {
     parts_->views.for_each_program(poll_program);
     parts_->error.for_each_program(poll_program);
     for (int i = 0; i < 2; ++i) {
-        for (auto& pass : parts_->temporal[i]) poll(pass);
+        for (auto& pair : parts_->temporal[i])
+            for (auto& pass : pair) poll(pass);
         poll(parts_->filter[i]);
-        poll(parts_->display[i]);
+        for (auto& pass : parts_->display[i]) poll(pass);
         poll(parts_->pick[i]);
     }
     poll(parts_->accumulate);

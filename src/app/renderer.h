@@ -63,7 +63,8 @@ class Renderer {
     // where there is none.
     ImageRgb32f read_radiance() const;
 
-    std::uint64_t samples() const;           // kept per pixel (exact: all; else of the youngest frame's cap)
+    // Kept per pixel: of exact mode and of a refined picture all; else up to the cap.
+    std::uint64_t samples() const;
     std::uint64_t rejected_samples() const;  // not finite, since the start
     // Keeps from the next frame on what an estimate needs.
     void keep_variance(bool on);

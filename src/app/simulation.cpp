@@ -47,7 +47,7 @@ struct Simulation::Parts {
         : timers(frame_timers),
           size_vox(size_within_limits(scene.cells.size_vox())),
           cells({.label = "cells", .format = GL_R8UI, .size = size_vox}),
-          brick_distance({.label = "brick distance", .format = GL_RG8UI, .size = bricks_of(size_vox)}),
+          brick_rooms({.label = "brick rooms", .format = GL_RG32UI, .size = rooms_size(bricks_of(size_vox))}),
           brick_changed({.label = "brick changed", .format = GL_R32UI, .size = bricks_of(size_vox)}),
           water(scene),
           bricks(bricks_of(size_vox)),
@@ -58,7 +58,7 @@ struct Simulation::Parts {
     std::uint32_t tick32() const { return static_cast<std::uint32_t>(tick); }
     void update_bricks() {
         bricks.record({.cells = cells, .activity = water.activity(), .version = stamp()},
-                      {.brick_distance = brick_distance}, timers);
+                      {.brick_rooms = brick_rooms}, timers);
     }
     void load(const Cells& from);
     void mark_bricks(const Box& bounds, const std::vector<std::uint8_t>& before,
@@ -72,7 +72,7 @@ struct Simulation::Parts {
     gl::Timers& timers;
     glm::ivec3 size_vox;
 
-    gl::Texture cells, brick_distance, brick_changed;
+    gl::Texture cells, brick_rooms, brick_changed;
     Water water;
     BricksPass bricks;
     CensusPass census_pass;
@@ -304,8 +304,8 @@ std::uint64_t Simulation::version() const {
 const gl::Texture& Simulation::cells() const {
     return parts_->cells;
 }
-const gl::Texture& Simulation::brick_distance() const {
-    return parts_->brick_distance;
+const gl::Texture& Simulation::brick_rooms() const {
+    return parts_->brick_rooms;
 }
 const gl::Texture& Simulation::brick_changed() const {
     return parts_->brick_changed;

@@ -68,10 +68,9 @@ class Simulation {
 
     // R8UI, size_vox.
     const gl::Texture& cells() const;
-    // RG8UI, ceil(size / BRICK_SIDE): Chebyshev distance in bricks, up to BRICK_DISTANCE_MAX, to the nearest
-    // brick that is not all air (r), not all full water (g); 0 in it. Bricks cut by the world's end, and all
-    // beyond it, are never "all full water".
-    const gl::Texture& brick_distance() const;
+    // RG32UI, ceil(size / BRICK_SIDE) and twice as deep: what rays skip by, glsl/shared/rooms.h; of air, then
+    // of full water. Bricks cut by the world's end, and all beyond it, are never "all full water".
+    const gl::Texture& brick_rooms() const;
     // R32UI, ceil(size / BRICK_SIDE): version() at which cells in it last changed (low 32 bits).
     const gl::Texture& brick_changed() const;
     // The same as a log, for what is kept up to date by differences.

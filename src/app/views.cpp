@@ -8,10 +8,13 @@ Views::Targets::Targets(const RenderTargets& targets)
     : counts({.label = "counts", .format = GL_RG32F, .size = {targets.traced_px, 0}}) {
     for (int i = 0; i < 2; ++i) {
         const FrameTargets& frame = targets.frames[i];
-        moments[i] = gl::Texture({.label = "moments", .format = GL_RGBA32F, .size = {targets.traced_px, 0}});
-        trace[i] = gl::Framebuffer("trace with counts", {&targets.radiance, &frame.position, &frame.normal,
-                                                         &frame.material, &counts});
-        history[i] = gl::Framebuffer("history with moments", {&frame.history, &moments[i]});
+        moments[i] = gl::Texture({.label = "moments", .format = GL_RGBA32F, .size = {targets.kept_px(), 0}});
+        trace[i] = gl::Framebuffer("trace with counts",
+                                   {&targets.radiance[i], &targets.traced_surface_of(i), &counts});
+        history[i] =
+            targets.upsampled
+                ? gl::Framebuffer("history with moments", {&frame.history, &frame.surface, &moments[i]})
+                : gl::Framebuffer("history with moments", {&frame.history, &moments[i]});
     }
 }
 
@@ -74,9 +77,7 @@ void Views::show(ViewKind view, const RenderTargets& targets, int current, bool 
         history = &frame.history;
         if (targets_) moments = &targets_->moments[current];
     }
-    pass(view, raw).record({.position = frame.position,
-                            .normal = frame.normal,
-                            .material = frame.material,
+    pass(view, raw).record({.surface = frame.surface,
                             .counts = targets_ ? &targets_->counts : nullptr,
                             .history = history,
                             .moments = moments,

@@ -65,7 +65,7 @@ std::vector<Bar> bars() {
                     false});
     list.push_back({"tick at rest, 512^3 / 64^3",
                     {"sim", "terrain-512", "tick", "asleep"},
-                    {"sim", "terrain-512", "tick", "asleep, 64^3"},
+                    {"sim", "terrain-512", "tick", "asleep 64^3"},
                     2,
                     1.2,
                     false});

@@ -22,6 +22,7 @@ class FrameCase {
     FrameCase(const BenchWorld& world, Quality quality)
         : simulation_(world.simulation), settings_(world.scene.settings), renderer_(world.scene, timers_) {
         apply_quality(settings_, quality);
+        settings_.refine_at_rest = false;  // later frames would be those of exact
     }
 
     // The time of a frame, and of its passes.

@@ -40,14 +40,21 @@ std::size_t place_of(std::size_t ray) {
 RayKernel::RayKernel(const RaySet& set, bool skip)
     : count_(set.rays.size()),
       program_(make_program(set.from_eye, skip)),
-      rays_("bench rays", set.rays.size() * sizeof(BenchRay)),
+      rows_(rows_for(set.rays.size())),
+      rays_({.label = "bench rays", .format = GL_RGBA32F, .size = {width_px, 3 * rows_, 0}}),
       frame_("bench frame", sizeof(FrameBlock)),
-      result_(
-          {.label = "bench distances", .format = GL_RG32F, .size = {width_px, rows_for(set.rays.size()), 0}}),
+      result_({.label = "bench distances", .format = GL_RGBA32F, .size = {width_px, rows_, 0}}),
       target_("bench distances", {&result_}) {
-    rays_.upload(set.rays);
-    program_.set("count", static_cast<int>(count_));
-    program_.set("tiles_per_row", tiles_per_row);
+    const std::size_t pixels = std::size_t{1} * width_px * rows_;
+    std::vector<glm::vec4> parts(3 * pixels, glm::vec4(0));
+    for (std::size_t ray = 0; ray < count_; ++ray) {
+        const BenchRay& from = set.rays[ray];
+        parts[place_of(ray)] = from.origin_vox;
+        parts[pixels + place_of(ray)] = from.dir;
+        parts[2 * pixels + place_of(ray)] = glm::vec4(from.cell);
+    }
+    rays_.upload<glm::vec4>(parts, GL_RGBA, GL_FLOAT);
+    program_.set("rows", rows_);
 }
 
 double RayKernel::run(const Simulation& simulation) {
@@ -55,9 +62,9 @@ double RayKernel::run(const Simulation& simulation) {
     block.world_size_vox = glm::ivec4(simulation.size_vox(), 0);
     frame_.upload(std::span(&block, 1));
     frame_.bind_uniform(BINDING_FRAME);
-    simulation.cells().bind(BINDING_CELLS);
-    simulation.brick_distance().bind(BINDING_BRICK_DISTANCE);
-    rays_.bind_storage(0);
+    simulation.cells().bind_image(IMAGE_CELLS, GL_READ_ONLY);
+    simulation.brick_rooms().bind_image(IMAGE_BRICK_ROOMS, GL_READ_ONLY);
+    rays_.bind_image(IMAGE_BENCH_RAYS, GL_READ_ONLY);
     program_.use();
     glFinish();
     const Stopwatch watch;
@@ -68,13 +75,14 @@ double RayKernel::run(const Simulation& simulation) {
 
 RayKernel::Result RayKernel::read() const {
     const glm::ivec3 size = result_.size();
-    std::vector<glm::vec2> pixels(std::size_t{1} * size.x * size.y);
-    result_.download(std::span(pixels), GL_RG, GL_FLOAT);
+    std::vector<glm::vec4> pixels(std::size_t{1} * size.x * size.y);
+    result_.download(std::span(pixels), GL_RGBA, GL_FLOAT);
     Result result;
     for (std::size_t ray = 0; ray < count_; ++ray) {
-        const glm::vec2 found = pixels[place_of(ray)];
+        const glm::vec4 found = pixels[place_of(ray)];
         result.distance_vox.push_back(found.x);
         result.mean_steps += static_cast<double>(found.y) / static_cast<double>(count_);
+        result.mean_cells += static_cast<double>(found.z) / static_cast<double>(count_);
     }
     return result;
 }

@@ -22,13 +22,16 @@ class RayKernel {
     struct Result {
         std::vector<float> distance_vox;  // of each ray; -1: nothing met
         double mean_steps = 0;
+        double mean_cells = 0;  // read
     };
     Result read() const;  // of the last run
 
   private:
     std::size_t count_;
     gl::Program program_;
-    gl::Buffer rays_, frame_;
+    int rows_;
+    gl::Texture rays_;  // as glsl/pass/rays.frag reads it
+    gl::Buffer frame_;
     gl::Texture result_;
     gl::Framebuffer target_;
 };

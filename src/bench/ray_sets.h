@@ -9,7 +9,6 @@
 
 namespace tarn {
 
-// As glsl/pass/rays.frag lays it out (std430).
 struct BenchRay {
     glm::vec4 origin_vox, dir;  // w unused
     glm::ivec4 cell;            // w: medium around the origin. Of rays from the eye neither is known

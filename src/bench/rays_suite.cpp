@@ -82,6 +82,12 @@ void compare_results(const RayWorld& in, BenchResult& result) {
         add("rays", "all", "rays", static_cast<double>(c->set.rays.size()));
         add("steps", "tarn", "steps", tarn.mean_steps);
         add("steps", "voxel", "steps", voxel.mean_steps);
+        // A word where the ray starts and one a step; cells are bytes.
+        const double words = tarn.mean_steps + 1;
+        add("fetches", "tarn", "fetches", words + tarn.mean_cells);
+        add("fetches", "voxel", "fetches", voxel.mean_cells);
+        add("bytes", "tarn", "bytes", words * sizeof(glm::uvec2) + tarn.mean_cells);
+        add("bytes", "voxel", "bytes", voxel.mean_cells);
         if (tarn.distance_vox != voxel.distance_vox)
             result.failures.push_back(
                 fmt::format("{} {}: skipping and voxel by voxel differ: one of them is wrong", scene, kind));

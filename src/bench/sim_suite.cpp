@@ -138,7 +138,7 @@ void measure_world(int side_vox, const BenchOptions& options, BenchResult& resul
     });
     if (small) {
         contestants.push_back(
-            {.suite = "sim", .scene = scene, .who = "asleep, 64^3", .run = [&] {
+            {.suite = "sim", .scene = scene, .who = "asleep 64^3", .run = [&] {
                  small->simulation.put_to_sleep();
                  return std::vector<Sample>{{"tick", "ms", tick_ms(*small, ticks_a_sample_asleep)}};
              }});
@@ -147,11 +147,11 @@ void measure_world(int side_vox, const BenchOptions& options, BenchResult& resul
         add(who, [&] { return std::vector<Sample>{{"tick", "ms", cpu.ms(ticks_a_sample)}}; });
     };
     add_cpu("cpu awake", level);
-    if (has_avx2) add_cpu("cpu awake, no AVX2", level_plain);
-    add("block, awake", [&] {
+    if (has_avx2) add_cpu("cpu awake without AVX2", level_plain);
+    add("awake block", [&] {
         return std::vector<Sample>{{"tick", "ms", block_tick_ms(*world, ticks_a_sample)}};
     });
-    add_cpu("block, cpu awake", block);
+    add_cpu("cpu awake block", block);
     add("copy", [&] {
         const double ms = copy_ms(world->scene.cells.bytes(), copy, options.threads);
         return std::vector<Sample>{{"cells", "ms", ms}};

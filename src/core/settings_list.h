@@ -32,6 +32,9 @@
     REAL(max_distance_vox, 4096, 1, 10000000, LIGHT, IMAGE, "Longest ray in voxels; beyond it is sky.")      \
     INT(samples_per_pixel, 1, 1, 64, LIGHT, IMAGE, "Paths per pixel in each frame.")                         \
     REAL(resolution_scale, 1, 0.25, 1, LIGHT, TARGETS, "Traced pixels per shown pixel, along each side.")    \
+    BOOL(guided_upsampling, true, LIGHT, IMAGE,                                                              \
+         "Where fewer pixels are traced than shown: spread their light within the surfaces of the shown "    \
+         "ones; off: bilinear.")                                                                             \
     CHOICE(Traversal, traversal, Distance, LIGHT, IMAGE,                                                     \
            "voxel: step through every voxel; distance: skip empty bricks. Same picture.")                    \
     CHOICE(                                                                                                  \
@@ -40,6 +43,9 @@
         "or all (the sky too).")                                                                             \
     CHOICE(DiffuseSampling, diffuse_sampling, Cosine, LIGHT, IMAGE,                                          \
            "Diffuse directions: by their cosine, or uniform over the hemisphere (more noise).")              \
+    BOOL(low_discrepancy, true, LIGHT, IMAGE,                                                                \
+         "Spread the random numbers of a pixel's frames evenly: less noise once frames are averaged; off: "  \
+         "independent numbers.")                                                                             \
     BOOL(sun_through_water, true, LIGHT, IMAGE,                                                              \
          "Connect points under smooth water to the sun through the surface, in closed form.")                \
     BOOL(                                                                                                    \
@@ -64,6 +70,12 @@
     REAL(history_alpha, 0.1, 0.001, 1, IMAGE_FILTER, IMAGE,                                                  \
          "Weight of the new frame where history is blend.")                                                  \
     INT(history_cap, 48, 1, 4096, IMAGE_FILTER, IMAGE, "Most frames kept where history is count.")           \
+    BOOL(retrace_changes, true, IMAGE_FILTER, IMAGE,                                                         \
+         "After a change of the world trace a ninth of the last frame's paths again, where history is "      \
+         "count, "                                                                                           \
+         "and keep less of it where their light changed: shadows and images in water follow.")               \
+    BOOL(refine_at_rest, true, IMAGE_FILTER, IMAGE,                                                          \
+         "While eye and world rest, add frames of quality exact and let the picture glide into their mean.") \
     CHOICE(Filter, filter, EdgeAware, IMAGE_FILTER, TARGETS,                                                 \
            "Blur against noise: none, gaussian, or edge_aware (stays within one surface).")                  \
     INT(filter_passes, 1, 1, 5, IMAGE_FILTER, IMAGE,                                                         \

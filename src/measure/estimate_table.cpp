@@ -58,12 +58,20 @@ std::string estimate_text(std::span<const EstimateRow> rows) {
         }
         if (n > 0)
             text += fmt::format(
-                "  {:<9} true is {:.2f} times the estimate, from {:.2f} to {:.2f} ({} pictures)\n", name,
+                "  {:<16} true is {:.2f} times the estimate, from {:.2f} to {:.2f} ({} pictures)\n", name,
                 std::exp(sum / n), least, most, n);
         else
-            text += fmt::format("  {:<9} no picture whose reference is sure enough\n", name);
+            text += fmt::format("  {:<16} no picture whose reference is sure enough\n", name);
     };
+    std::vector<std::string> scenes;
+    for (const EstimateRow& r : rows)
+        if (r.samples > 0 && std::find(scenes.begin(), scenes.end(), r.scene) == scenes.end())
+            scenes.push_back(r.scene);
     line("exact", [](const EstimateRow& r) { return r.samples > 0; });
+    // Where light comes along rare paths, few samples do not know what they have not met.
+    for (const std::string& scene : scenes)
+        line(fmt::format("exact, {}", scene),
+             [&](const EstimateRow& r) { return r.samples > 0 && r.scene == scene; });
     for (const Quality quality : shown) {
         const std::string name = choice_names<Quality>()[static_cast<std::size_t>(quality)];
         line(name, [&](const EstimateRow& r) { return r.samples == 0 && r.label.starts_with(name + " "); });

@@ -265,7 +265,7 @@ std::vector<std::string> beaten_qualities(std::span<const TradeoffRow> rows) {
     };
     look("over all", over_all(rows));
     for (const auto& [scene, recording] : places_of(rows))
-        look(scene + " " + recording, of_place(rows, scene, recording));
+        look(fmt::format("{} {}", scene, recording), of_place(rows, scene, recording));
     return lines;
 }
 

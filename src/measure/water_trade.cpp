@@ -123,7 +123,7 @@ Drawing draw_water_trade(std::span<const WaterTradeRow> rows) {
         for (const glm::dvec2& point : row.curve) series.points.push_back({point.x * row.tick_ms, point.y});
         panels.back().series.push_back(series);
     }
-    return draw_plot(panels, 2, "Water: how far from level, against what its ticks cost");
+    return draw_plot(panels, 2, "Water: how far from level, against what its ticks cost", {560, 340});
 }
 
 }  // namespace tarn

@@ -1,7 +1,6 @@
 #include "passes/bricks.h"
 
 #include <array>
-#include <limits>
 
 #include "shared/bindings.h"
 
@@ -9,18 +8,20 @@ namespace tarn {
 
 namespace {
 
-// Up and down first: from the open sky the ground is found there, which leaves the others little to do.
-constexpr std::array<const char*, 3> axes{"1", "0", "2"};
-constexpr std::array<GLuint, 3> axis_numbers{1, 0, 2};
-constexpr std::size_t box_bytes = 12 * sizeof(std::uint32_t);  // DistanceBox of glsl/lib/distance_boxes.glsl
-constexpr std::size_t groups_offset = 8 * sizeof(std::uint32_t);
-constexpr int highest = std::numeric_limits<int>::max();
-constexpr std::array<int, 8> nowhere{highest, highest, highest, 0, -1, -1, -1, 0};
+gl::Program rooms_program(const char* axis) {
+    return gl::Program(
+        {.label = "brick rooms", .compute = "pass/brick_rooms.comp", .defines = {{"AXIS", axis}}});
+}
 
-gl::Program distance_program(std::size_t step) {
-    return gl::Program({.label = "brick distance",
-                        .compute = "pass/brick_distance.comp",
-                        .defines = {{"AXIS", axes[step]}, {"FIRST", step == 0 ? "1" : "0"}}});
+// A value that no brick has: the first call looks at every line.
+void make_unknown(const gl::Texture& texture) {
+    constexpr std::array<std::uint8_t, 2> unknown{255, 255};
+    glClearTexImage(texture.name(), 0, GL_RG_INTEGER, GL_UNSIGNED_BYTE, unknown.data());
+}
+
+std::size_t lines_of(glm::ivec3 size) {
+    return std::size_t{1} * size.x * size.z + std::size_t{1} * size.y * size.z +
+           std::size_t{1} * size.x * size.y;
 }
 
 }  // namespace
@@ -31,54 +32,57 @@ glm::ivec3 bricks_of(glm::ivec3 size_vox) {
 
 BricksPass::BricksPass(glm::ivec3 size_bricks)
     : occupancy_program_({.label = "brick occupancy", .compute = "pass/brick_occupancy.comp"}),
-      boxes_program_({.label = "brick boxes", .compute = "pass/brick_boxes.comp"}),
-      distance_program_{distance_program(0), distance_program(1), distance_program(2)},
+      rooms_program_{rooms_program("0"), rooms_program("1"), rooms_program("2")},
       occupancy_({.label = "brick occupancy", .format = GL_RG8UI, .size = size_bricks}),
-      between_{gl::Texture({.label = "brick distance, one axis", .format = GL_RG8UI, .size = size_bricks}),
-               gl::Texture({.label = "brick distance, two axes", .format = GL_RG8UI, .size = size_bricks})},
-      flips_("brick flips", sizeof(nowhere)),
-      boxes_("brick distance boxes", 3 * box_bytes) {
-    // A value that no brick has: the first call computes every distance.
-    constexpr std::array<std::uint8_t, 2> unknown{255, 255};
-    glClearTexImage(occupancy_.name(), 0, GL_RG_INTEGER, GL_UNSIGNED_BYTE, unknown.data());
-    flips_.upload(nowhere);
+      rooms_up_({.label = "brick rooms along y", .format = GL_RG8UI, .size = size_bricks}),
+      rooms_side_({.label = "brick rooms along y and x", .format = GL_RG16UI, .size = size_bricks}),
+      groups_("brick room groups", 3 * sizeof(glm::uvec3)),
+      lines_("marked lines of bricks", lines_of(size_bricks) * sizeof(std::uint32_t)) {
+    for (const gl::Texture* texture : {&occupancy_, &rooms_up_, &rooms_side_}) make_unknown(*texture);
+    lines_.clear();
 }
 
 void BricksPass::record(const Inputs& in, const Outputs& out, gl::Timers& timers) {
     const glm::ivec3 size_bricks = occupancy_.size();
     const auto scope = timers.scope("bricks");
     reader_.read(in.activity.changes(), in.version);
+    groups_.clear();
     in.activity.matter().bind_storage(STORAGE_MATTER);
-    flips_.bind_storage(STORAGE_BRICK_FLIPS);
-    boxes_.bind_storage(STORAGE_DISTANCE_BOXES);
+    groups_.bind_storage(STORAGE_ROOM_GROUPS);
+    lines_.bind_storage(STORAGE_ROOM_LINES);
     in.cells.bind(BINDING_CELLS);
     occupancy_.bind_image(0, GL_READ_WRITE);
+    out.brick_rooms.bind_image(1, GL_WRITE_ONLY);
     occupancy_program_.set("size_bricks", size_bricks);
+    occupancy_program_.set("line_groups", glm::uvec3((size_bricks + 7) / 8));
+    occupancy_program_.set("version", in.version);
     reader_.run(occupancy_program_, in.activity.changes());
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-    boxes_program_.set("size_bricks", size_bricks);
-    boxes_program_.dispatch({1, 1, 1});
     glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
-                    GL_BUFFER_UPDATE_BARRIER_BIT);
-    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, boxes_.name());
-    const std::array<const gl::Texture*, 4> stages{&occupancy_, &between_[0], &between_[1],
-                                                   &out.brick_distance};
-    for (std::size_t i = 0; i < 3; ++i) {
-        const gl::Program& program = distance_program_[i];
+                    GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, groups_.name());
+    struct Step {
+        int axis;
+        const gl::Texture &source, &target;
+    };
+    for (const Step& step : {Step{1, occupancy_, rooms_up_}, Step{0, rooms_up_, rooms_side_},
+                             Step{2, rooms_side_, out.brick_rooms}}) {
+        const gl::Program& program = rooms_program_[step.axis];
         program.set("size_bricks", size_bricks);
-        stages[i]->bind(BINDING_FIRST_INPUT);
-        stages[i + 1]->bind_image(0, GL_READ_WRITE);
+        program.set("version", in.version);
+        step.source.bind(BINDING_FIRST_INPUT);
+        step.target.bind_image(0, GL_READ_WRITE);
         program.use();
-        glDispatchComputeIndirect(static_cast<GLintptr>(axis_numbers[i] * box_bytes + groups_offset));
-        glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+        glDispatchComputeIndirect(static_cast<GLintptr>(sizeof(glm::uvec3)) * step.axis);
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
+                        GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
     }
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
 }
 
 void BricksPass::poll_reload(std::vector<std::string>& messages) {
     if (auto message = reader_.poll_reload()) messages.push_back(*message);
-    for (gl::Program* program : {&occupancy_program_, &boxes_program_, &distance_program_[0],
-                                 &distance_program_[1], &distance_program_[2]})
+    for (gl::Program* program :
+         {&occupancy_program_, &rooms_program_[0], &rooms_program_[1], &rooms_program_[2]})
         if (auto message = program->poll_reload()) messages.push_back(*message);
 }
 

@@ -1,5 +1,5 @@
-// What rays skip by: the occupancy of bricks and the distance between them, kept up to date where bricks
-// changed (glsl/pass/brick_*.comp). Owns its programs and what lies between them.
+// What rays skip by (glsl/shared/rooms.h), kept up to date for changed bricks and the lines that see them
+// only (glsl/pass/brick_occupancy.comp, brick_rooms.comp). Owns its programs and what lies between them.
 #pragma once
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -23,7 +23,7 @@ class BricksPass {
         std::uint32_t version;  // of the world
     };
     struct Outputs {
-        gl::Texture& brick_distance;  // RG8UI, as in app/simulation.h; holds what the last call left
+        gl::Texture& brick_rooms;  // RG32UI, as in app/simulation.h; holds what the last call left
         // And which bricks hold what moves, in Inputs::activity.
     };
 
@@ -35,15 +35,19 @@ class BricksPass {
 
   private:
     ChangeReader reader_;
-    gl::Program occupancy_program_, boxes_program_;
-    gl::Program distance_program_[3];  // one an axis, in the order they run
-    gl::Texture occupancy_;            // RG8UI
-    gl::Texture between_[2];           // RG8UI: distances along the first axis, along the first two
-    gl::Buffer flips_;                 // where occupancy changed
-    gl::Buffer boxes_;                 // of the distance programs, written by the boxes program
+    gl::Program occupancy_program_;
+    gl::Program rooms_program_[3];                   // by axis; run in the order y, x, z
+    gl::Texture occupancy_, rooms_up_, rooms_side_;  // RG8UI, RG8UI, RG16UI
+    gl::Buffer groups_;  // of the rooms programs, written by the occupancy program
+    gl::Buffer lines_;   // of bricks, marked with the version at which they are to be looked at
 };
 
 // ceil(size / BRICK_SIDE)
 glm::ivec3 bricks_of(glm::ivec3 size_vox);
+
+// Of the texture of words: those of full water lie behind those of air.
+inline glm::ivec3 rooms_size(glm::ivec3 size_bricks) {
+    return {size_bricks.x, size_bricks.y, 2 * size_bricks.z};
+}
 
 }  // namespace tarn

@@ -17,11 +17,7 @@ FilterPass::FilterPass(bool gaussian)
 void FilterPass::record(const Inputs& inputs, const Outputs& outputs, gl::Timers& timers) const {
     const auto scope = timers.scope("filter");
     inputs.surfaces.radiance.bind(BINDING_FIRST_INPUT);
-    if (!gaussian_) {
-        inputs.surfaces.position.bind(BINDING_FIRST_INPUT + 1);
-        inputs.surfaces.normal.bind(BINDING_FIRST_INPUT + 2);
-        inputs.surfaces.material.bind(BINDING_FIRST_INPUT + 3);
-    }
+    if (!gaussian_) inputs.surfaces.surface.bind(BINDING_FIRST_INPUT + 1);
     program_.set("step_px", inputs.step_px);
     program_.use();
     outputs.target.draw_fullscreen();

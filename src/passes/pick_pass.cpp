@@ -18,7 +18,7 @@ PickPass::PickPass(bool through_water)
 PickPass::Result PickPass::record(const Inputs& inputs, gl::Timers& timers) const {
     {
         const auto scope = timers.scope("pick");
-        inputs.cells.bind(BINDING_CELLS);
+        inputs.cells.bind_image(IMAGE_CELLS, GL_READ_ONLY);
         result_.bind_storage(0);
         program_.set("ray_dir", inputs.dir);
         program_.dispatch({1, 1, 1});

@@ -6,36 +6,41 @@ namespace tarn {
 
 namespace {
 
-gl::ProgramDesc describe(bool blend, bool moments) {
+gl::ProgramDesc describe(bool blend, bool moments, bool upsample) {
     gl::ProgramDesc desc{.label = blend ? "temporal blend" : "temporal",
                          .compute = {},
                          .vertex = "pass/fullscreen.vert",
                          .fragment = "pass/temporal.frag",
                          .defines = {}};
     if (blend) desc.defines.emplace_back("HISTORY_BLEND", "1");
+    if (upsample) desc.defines.emplace_back("HISTORY_UPSAMPLE", "1");
     if (moments) desc.defines.emplace_back("HISTORY_MOMENTS", "1");
     return desc;
 }
 
 }  // namespace
 
-TemporalPass::TemporalPass(bool blend, bool moments)
-    : moments_(moments), program_(describe(blend, moments)) {}
+TemporalPass::TemporalPass(bool blend, bool moments, bool upsample)
+    : blend_(blend), moments_(moments), upsample_(upsample), program_(describe(blend, moments, upsample)) {}
 
 void TemporalPass::record(const Inputs& inputs, const Outputs& outputs, gl::Timers& timers) const {
     const auto scope = timers.scope("temporal");
     inputs.brick_changed.bind(BINDING_BRICK_CHANGED);
+    if (upsample_) inputs.cells.bind(BINDING_CELLS);
     inputs.current.radiance.bind(BINDING_FIRST_INPUT);
-    inputs.current.position.bind(BINDING_FIRST_INPUT + 1);
-    inputs.current.normal.bind(BINDING_FIRST_INPUT + 2);
-    inputs.current.material.bind(BINDING_FIRST_INPUT + 3);
-    inputs.previous.radiance.bind(BINDING_FIRST_INPUT + 4);
-    inputs.previous.position.bind(BINDING_FIRST_INPUT + 5);
-    inputs.previous.normal.bind(BINDING_FIRST_INPUT + 6);
-    inputs.previous.material.bind(BINDING_FIRST_INPUT + 7);
+    inputs.current.surface.bind(BINDING_FIRST_INPUT + 1);
+    inputs.previous.radiance.bind(BINDING_FIRST_INPUT + 2);
+    inputs.previous.surface.bind(BINDING_FIRST_INPUT + 3);
     inputs.rejected.bind_storage(0);
+    if (!blend_) {
+        if (inputs.retraced != nullptr) {
+            inputs.retraced->bind(BINDING_FIRST_INPUT + 5);
+            inputs.traced_before->bind(BINDING_FIRST_INPUT + 6);
+        }
+        program_.set("is_retraced", inputs.retraced != nullptr ? 1 : 0);
+    }
     if (moments_) {
-        if (inputs.previous_moments != nullptr) inputs.previous_moments->bind(BINDING_FIRST_INPUT + 8);
+        if (inputs.previous_moments != nullptr) inputs.previous_moments->bind(BINDING_FIRST_INPUT + 4);
         program_.set("has_moments", inputs.previous_moments != nullptr ? 1 : 0);
     }
     program_.set("previous_version", inputs.previous_version);

@@ -10,36 +10,40 @@
 
 namespace tarn {
 
-// The four buffers of a frame.
+// What a frame holds of each pixel: light, and what shows it (glsl/lib/surface.glsl).
 struct SurfaceBuffers {
     const gl::Texture& radiance;
-    const gl::Texture& position;
-    const gl::Texture& normal;
-    const gl::Texture& material;
+    const gl::Texture& surface;
 };
 
 class TemporalPass {
   public:
     struct Inputs {
-        SurfaceBuffers current;
+        SurfaceBuffers current;   // as traced
         SurfaceBuffers previous;  // radiance: history, alpha: frames kept
+        const gl::Texture& cells;
         const gl::Texture& brick_changed;
         std::uint32_t previous_version;  // of the world, when the previous frame was made
         const gl::Buffer& rejected;
+        // The previous frame's light as traced, and some of its paths in this world; null where none was
+        // traced again. Not with blend.
+        const gl::Texture* traced_before = nullptr;
+        const gl::Texture* retraced = nullptr;
         const gl::Texture* previous_moments = nullptr;  // with moments; null where the last frame kept none
     };
     struct Outputs {
-        const gl::Framebuffer& history;  // with moments: history, moments
+        const gl::Framebuffer& history;  // history; upsample: surface; with moments: moments
     };
 
     // blend: constant weight; otherwise a running mean. moments: what the variance of the mean follows from,
     // too.
-    TemporalPass(bool blend, bool moments);
+    // upsample: of fewer pixels than history has.
+    TemporalPass(bool blend, bool moments, bool upsample);
     void record(const Inputs& inputs, const Outputs& outputs, gl::Timers& timers) const;
     gl::Program& program() { return program_; }
 
   private:
-    bool moments_;
+    bool blend_, moments_, upsample_;
     gl::Program program_;
 };
 

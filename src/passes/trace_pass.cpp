@@ -38,8 +38,8 @@ gl::ProgramDesc describe(const TraceFeatures& features) {
 TracePass::TracePass(const TraceFeatures& features) : features_(features), program_(describe(features)) {}
 
 void TracePass::draw(const Inputs& inputs, const gl::Framebuffer& target) const {
-    inputs.cells.bind(BINDING_CELLS);
-    if (features_.skip) inputs.brick_distance.bind(BINDING_BRICK_DISTANCE);
+    inputs.cells.bind_image(IMAGE_CELLS, GL_READ_ONLY);
+    if (features_.skip) inputs.brick_rooms.bind_image(IMAGE_BRICK_ROOMS, GL_READ_ONLY);
     if (features_.coated) {
         inputs.albedo_table.bind(BINDING_ALBEDO_TABLE);
         inputs.metal_albedo_table.bind(BINDING_METAL_ALBEDO_TABLE);
@@ -47,6 +47,11 @@ void TracePass::draw(const Inputs& inputs, const gl::Framebuffer& target) const 
     if (features_.rough) inputs.glass_albedo_table.bind(BINDING_GLASS_ALBEDO_TABLE);
     if (inputs.emitters != nullptr) inputs.emitters->bind();
     inputs.rejected.bind_storage(0);
+    if (features_.clear) {
+        inputs.brick_changed.bind(BINDING_BRICK_CHANGED);
+        program_.set("still_since", inputs.still_since);
+    }
+    program_.set("stride", inputs.stride);
     program_.use();
     target.draw_fullscreen();
 }
@@ -67,21 +72,23 @@ void TracePass::rehearse(const TraceShapes& shapes) const {
     materials.bind_uniform(BINDING_MATERIALS);
     emitters.bind_storage(STORAGE_EMITTER_TREE);
     emitters.bind_storage(STORAGE_EMITTER_MASKS);
-    const std::array<gl::Texture, 4> targets{gl::Texture(shapes.targets[0]), gl::Texture(shapes.targets[1]),
-                                             gl::Texture(shapes.targets[2]), gl::Texture(shapes.targets[3])};
-    const gl::Framebuffer target("rehearsal", {&targets[0], &targets[1], &targets[2], &targets[3]});
+    const std::array<gl::Texture, 2> targets{gl::Texture(shapes.targets[0]), gl::Texture(shapes.targets[1])};
+    const gl::Framebuffer target("rehearsal", {&targets[0], &targets[1]});
     const gl::Texture cells(shapes.cells);
-    const gl::Texture brick_distance(shapes.brick_distance);
+    const gl::Texture brick_rooms(shapes.brick_rooms);
+    const gl::Texture brick_changed(shapes.brick_changed);
     const gl::Texture albedo_table(shapes.albedo_table);
     const gl::Texture metal_albedo_table(shapes.metal_albedo_table);
     const gl::Texture glass_albedo_table(shapes.glass_albedo_table);
     draw({.cells = cells,
-          .brick_distance = brick_distance,
+          .brick_rooms = brick_rooms,
           .albedo_table = albedo_table,
           .metal_albedo_table = metal_albedo_table,
           .glass_albedo_table = glass_albedo_table,
           .emitters = nullptr,
-          .rejected = rejected},
+          .rejected = rejected,
+          .brick_changed = brick_changed,
+          .still_since = 0},
          target);
     if (features_.emitters) {
         gl::Timers timers;

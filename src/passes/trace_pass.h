@@ -28,23 +28,26 @@ struct TraceFeatures {
 
 // What a driver's code for the pass may depend on beside its features.
 struct TraceShapes {
-    gl::TextureDesc cells, brick_distance, albedo_table, metal_albedo_table, glass_albedo_table;
-    std::array<gl::TextureDesc, 4> targets;  // radiance, position, normal, material
+    gl::TextureDesc cells, brick_rooms, brick_changed, albedo_table, metal_albedo_table, glass_albedo_table;
+    std::array<gl::TextureDesc, 2> targets;  // radiance, surface
 };
 
 class TracePass {
   public:
     struct Inputs {
         const gl::Texture& cells;
-        const gl::Texture& brick_distance;
+        const gl::Texture& brick_rooms;
         const gl::Texture& albedo_table;
         const gl::Texture& metal_albedo_table;
         const gl::Texture& glass_albedo_table;
         const EmittersPass* emitters;  // null unless the feature is on
         const gl::Buffer& rejected;    // one uint, counted up
+        const gl::Texture& brick_changed;
+        std::uint32_t still_since;  // water in bricks that changed after this version of the world moves
+        std::uint32_t stride = 1;   // of the pixels traced, along x and y
     };
     struct Outputs {
-        const gl::Framebuffer& target;  // radiance, position, normal, material; with count: counts
+        const gl::Framebuffer& target;  // radiance, surface; with count: counts
     };
 
     explicit TracePass(const TraceFeatures& features);

@@ -25,8 +25,8 @@ ViewPass::ViewPass(ViewKind view, History history, bool raw) : program_(describe
 void ViewPass::record(const Inputs& inputs, const Outputs& outputs, gl::Timers& timers) const {
     const auto scope = timers.scope("view");
     GLuint unit = BINDING_FIRST_INPUT;
-    for (const gl::Texture* texture : {&inputs.position, &inputs.normal, &inputs.material, inputs.counts,
-                                       inputs.history, inputs.moments, inputs.correction}) {
+    for (const gl::Texture* texture :
+         {&inputs.surface, inputs.counts, inputs.history, inputs.moments, inputs.correction}) {
         if (texture != nullptr) texture->bind(unit);
         ++unit;
     }

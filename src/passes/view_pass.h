@@ -12,9 +12,7 @@ class ViewPass {
   public:
     // Each view reads what it shows alone; null where there is no such texture.
     struct Inputs {
-        const gl::Texture& position;
-        const gl::Texture& normal;
-        const gl::Texture& material;
+        const gl::Texture& surface;
         const gl::Texture* counts;
         const gl::Texture* history;     // alpha: frames kept; exact: the mean, alpha: frames lost
         const gl::Texture* moments;     // exact: the sums

@@ -49,6 +49,8 @@ class Bench(Case):
                  for who in ("awake", "tenth", "asleep")}
         self.assertEqual((awake["awake"], awake["asleep"]), (8 ** 3, 0))
         self.assertEqual(awake["tenth"], 8 * 8)
+        for who in ("awake", "asleep", "cpu awake", "awake block", "cpu awake block"):
+            self.assertGreater(figures["sim", "terrain-32", "tick", who]["median"], 0)
         for who in ("radius 1", "radius 8", "radius 32"):
             self.assertGreater(figures["edit", "terrain-32", "stroke", who]["median"], 0)
 

@@ -1,4 +1,4 @@
-// What rays skip by equals a brute-force count over the cells, after loading, ticks and edits; and exactly
+// What rays skip by equals a count over the cells, after loading, ticks and edits; and exactly
 // the bricks whose cells changed are stamped.
 #include <gtest/gtest.h>
 
@@ -7,6 +7,7 @@
 #include <random>
 
 #include "app/simulation.h"
+#include "brick_rooms.h"
 #include "core/error.h"
 #include "gpu/gl_test.h"
 #include "gpu/worlds.h"
@@ -36,81 +37,17 @@ std::size_t volume(glm::ivec3 size) {
     return std::size_t{1} * size.x * size.y * size.z;
 }
 
-struct Obstacles {  // bricks, x fastest
-    std::vector<char> matter, not_water;
-};
-
-Obstacles find_obstacles(const Cells& cells) {
-    const glm::ivec3 size = bricks_in(cells.size_vox());
-    Obstacles found;
-    found.matter.assign(volume(size), 0);
-    found.not_water = found.matter;
-    for_cells(size * BRICK_SIDE, [&](glm::ivec3 cell) {
-        const int brick = flat(cell / BRICK_SIDE, size);
-        if (cells.get(cell, MATERIAL_AIR) != MATERIAL_AIR) found.matter[brick] = 1;
-        if (cells.get(cell, MATERIAL_AIR) != MATERIAL_WATER_FULL) found.not_water[brick] = 1;
-    });
-    return found;
-}
-
-int nearest(glm::ivec3 from, glm::ivec3 size, const std::vector<char>& obstacle, int start) {
-    int best = start;
+void expect_right_rooms(const Simulation& simulation, const Cells& cells) {
+    const BrickRooms counted(cells);
+    const glm::ivec3 size = counted.size();
+    ASSERT_EQ(simulation.brick_rooms().size(), size);
+    std::vector<glm::uvec2> got(volume(size));
+    simulation.brick_rooms().download(std::span(got), GL_RG_INTEGER, GL_UNSIGNED_INT);
     for_cells(size, [&](glm::ivec3 brick) {
-        const glm::ivec3 d = glm::abs(brick - from);
-        if (obstacle[flat(brick, size)]) best = std::min(best, std::max({d.x, d.y, d.z}));
-    });
-    return best;
-}
-
-void expect_right_distances(const Simulation& simulation, const Cells& cells) {
-    const glm::ivec3 size = bricks_in(cells.size_vox());
-    ASSERT_EQ(simulation.brick_distance().size(), size);
-    std::vector<std::uint8_t> got(2 * volume(size));
-    simulation.brick_distance().download(std::span<std::uint8_t>(got), GL_RG_INTEGER, GL_UNSIGNED_BYTE);
-    const Obstacles obstacles = find_obstacles(cells);
-    for_cells(size, [&](glm::ivec3 brick) {
-        const glm::ivec3 end = glm::min(brick + 1, size - brick);
-        const int to_outside = std::min({end.x, end.y, end.z, BRICK_DISTANCE_MAX});
-        const int r = nearest(brick, size, obstacles.matter, BRICK_DISTANCE_MAX);
-        const int g = nearest(brick, size, obstacles.not_water, to_outside);
-        const int at = 2 * flat(brick, size);
-        ASSERT_TRUE(got[at] == r && got[at + 1] == g)
-            << fmt::format("brick ({}, {}, {}): GPU {} {}, counted {} {}", brick.x, brick.y, brick.z, got[at],
-                           got[at + 1], r, g);
-    });
-}
-
-// The same by two passes over the bricks, each of which looks at 13 of the 26 neighbours (Rosenfeld & Pfaltz
-// 1968): for worlds that reach farther than a distance does. Obstacles beyond the world only for water.
-std::vector<std::uint8_t> chamfered(glm::ivec3 size, const std::vector<char>& obstacle, int beyond) {
-    std::vector<int> distance(volume(size));
-    for (std::size_t i = 0; i < distance.size(); ++i) distance[i] = obstacle[i] ? 0 : BRICK_DISTANCE_MAX;
-    for (const int way : {-1, 1})
-        for_cells(size, [&](glm::ivec3 at) {
-            const glm::ivec3 brick = way < 0 ? at : size - 1 - at;
-            int& best = distance[flat(brick, size)];
-            for (int k = 0; k < 13; ++k) {
-                const glm::ivec3 other = brick - way * (glm::ivec3(k % 3, k / 3 % 3, k / 9) - 1);
-                const bool inside = glm::all(glm::greaterThanEqual(other, glm::ivec3(0))) &&
-                                    glm::all(glm::lessThan(other, size));
-                best = std::min(best, 1 + (inside ? distance[flat(other, size)] : beyond));
-            }
-        });
-    return {distance.begin(), distance.end()};
-}
-
-void expect_chamfered_distances(const Simulation& simulation, const Cells& cells) {
-    const glm::ivec3 size = bricks_in(cells.size_vox());
-    std::vector<std::uint8_t> got(2 * volume(size));
-    simulation.brick_distance().download(std::span<std::uint8_t>(got), GL_RG_INTEGER, GL_UNSIGNED_BYTE);
-    const Obstacles obstacles = find_obstacles(cells);
-    const auto r = chamfered(size, obstacles.matter, BRICK_DISTANCE_MAX);
-    const auto g = chamfered(size, obstacles.not_water, 0);
-    for_cells(size, [&](glm::ivec3 brick) {
-        const int at = flat(brick, size);
-        ASSERT_TRUE(got[2 * at] == r[at] && got[2 * at + 1] == g[at])
-            << fmt::format("brick ({}, {}, {}): GPU {} {}, counted {} {}", brick.x, brick.y, brick.z,
-                           got[2 * at], got[2 * at + 1], r[at], g[at]);
+        const glm::uvec2 word = got[flat(brick, size)];
+        const glm::uvec2 right = counted.words()[flat(brick, size)];
+        ASSERT_EQ(word, right) << fmt::format("brick ({}, {}, {}): GPU {:x} {:x}, counted {:x} {:x}", brick.x,
+                                              brick.y, brick.z, word.x, word.y, right.x, right.y);
     });
 }
 
@@ -137,29 +74,30 @@ Scene sparse_scene(glm::ivec3 size_vox) {
     return scene;
 }
 
-TEST_F(BricksTest, distances_equal_brute_force_as_things_move) {
-    for (const glm::ivec3 size : {glm::ivec3(1, 1, 1), glm::ivec3(7, 13, 5), glm::ivec3(61, 37, 45),
-                                  glm::ivec3(64, 48, 64), glm::ivec3(330, 20, 9), glm::ivec3(8, 300, 3)}) {
+TEST_F(BricksTest, rooms_equal_a_count_as_things_move) {
+    for (const glm::ivec3 size :
+         {glm::ivec3(1, 1, 1), glm::ivec3(7, 13, 5), glm::ivec3(61, 37, 45), glm::ivec3(64, 48, 64),
+          glm::ivec3(530, 20, 9), glm::ivec3(8, 300, 3), glm::ivec3(5, 9, 270)}) {
         SCOPED_TRACE(fmt::format("{}x{}x{}", size.x, size.y, size.z));
         const Scene scene = sparse_scene(size);
         gl::Timers timers;
         Simulation simulation(scene, timers);
-        expect_right_distances(simulation, scene.cells);
+        expect_right_rooms(simulation, scene.cells);
         Cells before = scene.cells;
         for (int i = 0; i < 12; ++i) {
             simulation.step(1, Settings{});
             const Cells after = simulation.read_cells();
             expect_right_stamps(simulation, before, after);
-            if (i % 3 == 0) expect_right_distances(simulation, after);
+            if (i % 3 == 0) expect_right_rooms(simulation, after);
             if (HasFatalFailure()) return;
             before = after;
         }
         simulation.step(20, Settings{});
-        expect_right_distances(simulation, simulation.read_cells());
+        expect_right_rooms(simulation, simulation.read_cells());
     }
 }
 
-TEST_F(BricksTest, water_distances_end_at_the_worlds_border_and_at_cut_bricks) {
+TEST_F(BricksTest, rooms_of_water_end_at_the_worlds_border_and_at_cut_bricks) {
     for (const glm::ivec3 size : {glm::ivec3(64, 64, 64), glm::ivec3(61, 64, 64), glm::ivec3(72, 40, 56)}) {
         Scene scene;
         scene.cells = Cells(size);
@@ -167,11 +105,11 @@ TEST_F(BricksTest, water_distances_end_at_the_worlds_border_and_at_cut_bricks) {
                   static_cast<std::uint8_t>(MATERIAL_WATER_FULL));
         gl::Timers timers;
         Simulation simulation(scene, timers);
-        expect_right_distances(simulation, scene.cells);
+        expect_right_rooms(simulation, scene.cells);
         Cells holed = scene.cells;
         holed.at({20, 20, 20}) = water_cell(15);
         simulation.write_cells(holed);
-        expect_right_distances(simulation, holed);
+        expect_right_rooms(simulation, holed);
     }
 }
 
@@ -184,7 +122,7 @@ TEST_F(BricksTest, edits_undo_and_loading_keep_them_right) {
     const auto look = [&] {
         const Cells after = simulation.read_cells();
         expect_right_stamps(simulation, before, after);
-        expect_right_distances(simulation, after);
+        expect_right_rooms(simulation, after);
         before = after;
     };
     const Edit edits[] = {
@@ -230,7 +168,7 @@ TEST_F(BricksTest, a_stroke_across_the_world_is_undone) {
     ASSERT_LT(undo->size(), 100u);
     simulation.write(*undo);
     expect_right_stamps(simulation, edited, scene.cells);
-    expect_right_distances(simulation, scene.cells);
+    expect_right_rooms(simulation, scene.cells);
     EXPECT_TRUE(same_cells(simulation.read_cells(), scene.cells));
     EXPECT_EQ(simulation.edit_totals().placed, simulation.edit_totals().removed);
     simulation.write(*history.redo());
@@ -271,32 +209,9 @@ TEST_F(BricksTest, distances_follow_random_edits_and_what_moves) {
                                  history);
             if (round % 3 == 2) simulation.write(*history.undo());
             if (round % 4 == 3) simulation.step(1 + below(3), Settings{});
-            expect_chamfered_distances(simulation, simulation.read_cells());
+            expect_right_rooms(simulation, simulation.read_cells());
             if (HasFatalFailure()) return;
         }
-    }
-}
-
-// What is nearest, once a stone is gone, may lie as far beyond the bricks that are computed anew as they
-// reach.
-TEST_F(BricksTest, distances_reach_beyond_what_is_computed_anew) {
-    for (int axis = 0; axis < 3; ++axis) {
-        SCOPED_TRACE(axis);
-        glm::ivec3 size(20);
-        size[axis] = 700;
-        Scene scene;
-        scene.cells = Cells(size);
-        constexpr int apart = 2 * (BRICK_DISTANCE_MAX - 1) - 1;
-        std::array<glm::ivec3, 3> stones{};
-        for (int i = 0; i < 3; ++i) {
-            stones[i] = glm::ivec3(10);
-            stones[i][axis] = (20 + i * apart) * BRICK_SIDE;
-            scene.cells.at(stones[i]) = MATERIAL_STONE;
-        }
-        gl::Timers timers;
-        Simulation simulation(scene, timers);
-        simulation.write({{stones[1], MATERIAL_STONE, MATERIAL_AIR}});
-        expect_chamfered_distances(simulation, simulation.read_cells());
     }
 }
 

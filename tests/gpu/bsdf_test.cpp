@@ -50,6 +50,32 @@ TEST_F(BsdfTest, Fault4_ASeedThatHashesToZeroDoesNotStick) {
     EXPECT_EQ(result[1], 0u);
 }
 
+TEST_F(BsdfTest, SequencesSpreadEvenlyAndEachOfTheirPathsIsUnbiased) {
+    struct Result {
+        std::array<std::uint32_t, 16> histogram{};
+        std::uint32_t products = 0, least = 64, most = 0;
+    };
+    const gl::Program program = kernel("tests/kernels/rng_sequence.comp");
+    gl::Buffer buffer("result", sizeof(Result));
+    buffer.bind_storage(0);
+    constexpr std::uint32_t count = 1 << 16;
+    program.set("count", count);
+    for (const std::uint32_t path : {0u, 1u, 37u, 63u}) {
+        Result result;
+        buffer.upload(std::span(&result, 1));
+        program.set("looked_at", path);
+        program.dispatch_for({count, 1, 1}, {64, 1, 1});
+        buffer.download(std::span(&result, 1));
+        // 4096 expected: five standard deviations are 320.
+        for (const std::uint32_t bin : result.histogram) EXPECT_NEAR(bin, count / 16, 320) << path;
+        // Of independent numbers 255.5; five standard deviations are 4.4.
+        EXPECT_NEAR(static_cast<double>(result.products) / count, 255.5, 4.4) << path;
+        // 4 expected; of 64 independent numbers some pixel has none and some pixel 15 in a bin.
+        EXPECT_GE(result.least, 2u);
+        EXPECT_LE(result.most, 6u);
+    }
+}
+
 struct Means {
     double weight = 0, error = 0, not_finite = 0;
     glm::dvec3 dir{0};  // mean of weight * wi

@@ -216,7 +216,7 @@ TEST_F(EmittersTest, SamplesHaveTheirDensityAndCoverEverySolidAngle) {
     gl::Buffer frame_block("frame block", sizeof(FrameBlock));
     frame_block.upload(std::span(&block, 1));
     frame_block.bind_uniform(BINDING_FRAME);
-    simulation.cells().bind(BINDING_CELLS);
+    simulation.cells().bind_image(IMAGE_CELLS, GL_READ_ONLY);
     tree.pass.bind();
     results.bind_storage(0);
     struct Case {

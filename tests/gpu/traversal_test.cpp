@@ -3,6 +3,7 @@
 #include <cmath>
 #include <span>
 
+#include "brick_rooms.h"
 #include "gl/buffer.h"
 #include "gl/program.h"
 #include "gl/texture.h"
@@ -37,63 +38,28 @@ struct GpuResult {
     bool operator==(const GpuResult&) const = default;
 };
 
-// Chebyshev distance in bricks to the nearest brick that holds a byte other than `pass`; capped. The maximum
-// norm separates: one axis after the other.
-std::vector<std::uint8_t> brick_distances(const Cells& cells, glm::ivec3 bricks, std::uint8_t pass) {
-    Cells nearest(bricks);
-    std::fill(nearest.bytes().begin(), nearest.bytes().end(), std::uint8_t{BRICK_DISTANCE_MAX});
-    const glm::ivec3 size = BRICK_SIDE * bricks;  // outside the world is air
-    for (int z = 0; z < size.z; ++z)
-        for (int y = 0; y < size.y; ++y)
-            for (int x = 0; x < size.x; ++x)
-                if (cells.get({x, y, z}, MATERIAL_AIR) != pass)
-                    nearest.at(glm::ivec3(x, y, z) / BRICK_SIDE) = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-        const Cells before = nearest;
-        for (int z = 0; z < bricks.z; ++z) {
-            for (int y = 0; y < bricks.y; ++y) {
-                for (int x = 0; x < bricks.x; ++x) {
-                    std::uint8_t& best = nearest.at({x, y, z});
-                    for (int way = -BRICK_DISTANCE_MAX; way <= BRICK_DISTANCE_MAX; ++way) {
-                        glm::ivec3 other(x, y, z);
-                        other[axis] += way;
-                        if (std::abs(way) >= best || !before.contains(other)) continue;
-                        best = std::min(best,
-                                        std::max(before.at(other), static_cast<std::uint8_t>(std::abs(way))));
-                    }
-                }
-            }
-        }
-    }
-    return nearest.bytes();
-}
-
 // A world on the GPU with what its rays need.
 class GpuWorld {
   public:
     explicit GpuWorld(const Cells& cells)
         : cells_({.label = "cells", .format = GL_R8UI, .size = cells.size_vox()}),
-          distance_({.label = "brick distance", .format = GL_RG8UI, .size = bricks(cells)}),
           frame_("frame", sizeof(FrameBlock)) {
         cells_.upload<std::uint8_t>(cells.bytes(), GL_RED_INTEGER, GL_UNSIGNED_BYTE);
-        const auto air = brick_distances(cells, bricks(cells), MATERIAL_AIR);
-        const auto water = brick_distances(cells, bricks(cells), MATERIAL_WATER_FULL);
-        std::vector<glm::u8vec2> both;
-        for (std::size_t i = 0; i < air.size(); ++i) both.emplace_back(air[i], water[i]);
-        distance_.upload<glm::u8vec2>(both, GL_RG_INTEGER, GL_UNSIGNED_BYTE);
+        const BrickRooms rooms(cells);
+        rooms_ = gl::Texture({.label = "brick rooms", .format = GL_RG32UI, .size = rooms.size()});
+        rooms_.upload<glm::uvec2>(rooms.words(), GL_RG_INTEGER, GL_UNSIGNED_INT);
         FrameBlock block;
         block.world_size_vox = glm::ivec4(cells.size_vox(), 0);
         frame_.upload(std::span(&block, 1));
     }
     void bind() const {
-        cells_.bind(BINDING_CELLS);
-        distance_.bind(BINDING_BRICK_DISTANCE);
+        cells_.bind_image(IMAGE_CELLS, GL_READ_ONLY);
+        rooms_.bind_image(IMAGE_BRICK_ROOMS, GL_READ_ONLY);
         frame_.bind_uniform(BINDING_FRAME);
     }
 
   private:
-    static glm::ivec3 bricks(const Cells& cells) { return (cells.size_vox() + BRICK_SIDE - 1) / BRICK_SIDE; }
-    gl::Texture cells_, distance_;
+    gl::Texture cells_, rooms_;
     gl::Buffer frame_;
 };
 

@@ -93,6 +93,14 @@ TEST(Governor, FollowsStepsBothWays) {
     }
 }
 
+TEST(Governor, LosesPatienceWithALoadThatComesAndGoes) {
+    // Every move up is taken back some frames later; no table could know.
+    const Outcome outcome =
+        run({.load_ms = [](int frame) { return frame / 80 % 2 == 0 ? 20.0 : 40.0; }}, 12000);
+    EXPECT_GT(outcome.switches(0, 1000), 4);
+    EXPECT_LE(outcome.switches(8000, 12000), 8);
+}
+
 TEST(Governor, TargetsOutOfReachEndAtTheEnds) {
     const Outcome slow = run({.target_ms = 1, .load_ms = [](int) { return 50.0; }, .noise = 0.1}, 2000);
     EXPECT_EQ(slow.points.back(), 0u);

@@ -116,6 +116,7 @@ TEST(CoordinateSearch, KeepsItsBudgetMeasuresNothingTwiceAndImproves) {
         CoordinateSearch search(starts, budget);
         for (auto batch = search.next(); !batch.empty(); batch = search.next()) {
             std::vector<Measured> measured;
+            measured.reserve(batch.size());
             for (const Configuration& c : batch) measured.push_back(made_up(c));
             search.report(measured);
         }

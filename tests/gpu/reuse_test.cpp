@@ -1,0 +1,238 @@
+// What earlier frames and neighbours are worth: fewer traced pixels than shown ones, changes of light that
+// the cells of what is seen do not tell of, pictures at rest.
+#include <map>
+#include <vector>
+
+#include "studio.h"
+#include "world/edits.h"
+
+namespace tarn {
+namespace {
+
+class ReuseTest : public GlTest {};
+
+double largest_difference(const Picture& a, const Picture& b) {
+    double most = 0;
+    for (std::size_t i = 0; i < a.image.pixels.size(); ++i)
+        most = std::max(most, std::abs(double{a.image.pixels[i]} - b.image.pixels[i]));
+    return most;
+}
+
+// mean((x - ref)^2 / (ref^2 + 0.01 mean(ref)^2))
+double relative_error(const Picture& picture, const Picture& reference) {
+    double mean = 0;
+    for (const float p : reference.image.pixels) mean += p;
+    mean /= static_cast<double>(reference.image.pixels.size());
+    double sum = 0;
+    for (std::size_t i = 0; i < picture.image.pixels.size(); ++i) {
+        const double expected = reference.image.pixels[i];
+        sum += std::pow(picture.image.pixels[i] - expected, 2) / (expected * expected + 0.01 * mean * mean);
+    }
+    return sum / static_cast<double>(picture.image.pixels.size());
+}
+
+void put(Studio& studio, glm::ivec3 center_vox, int radius_vox, std::uint8_t material) {
+    EditHistory edits;
+    edits.begin_stroke();
+    studio.simulation.apply({.shape = BrushShape::Cube,
+                             .center_vox = center_vox,
+                             .radius_vox = radius_vox,
+                             .material = material,
+                             .overwrite = true},
+                            edits);
+}
+
+TEST_F(ReuseTest, AStillPictureOfFewerTracedPixelsBecomesThatOfAll) {
+    for (const float scale : {0.5f, 0.7f, 0.34f, 0.25f}) {
+        Studio full(sunlit_slabs());
+        Studio scaled(sunlit_slabs());
+        scaled.settings().history = History::Count;
+        scaled.settings().resolution_scale = scale;
+        const Picture expected = full.shoot({61, 43});
+        Picture picture;
+        for (int frame = 0; frame < 32; ++frame) picture = scaled.shoot({61, 43});
+        EXPECT_LT(largest_difference(picture, expected), 1e-4) << scale;
+    }
+}
+
+TEST_F(ReuseTest, FewerTracedPixelsHaveTheSameMeanOnAFlight) {
+    Studio full(noisy_floor());
+    Studio scaled(noisy_floor());
+    for (Studio* studio : {&full, &scaled}) studio->settings().history = History::Count;
+    scaled.settings().resolution_scale = 0.5f;
+    Picture expected, picture;
+    for (int frame = 0; frame < 16; ++frame) {
+        expected = full.shoot({48, 32});
+        picture = scaled.shoot({48, 32});
+        for (Studio* studio : {&full, &scaled}) studio->settings().camera_position_vox.x += 0.03f;
+    }
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(picture.mean()[c], expected.mean()[c], 0.05 * expected.mean()[c]);
+    EXPECT_LT(picture.standard_error(), 2 * expected.standard_error());
+}
+
+TEST_F(ReuseTest, AShadowAndAMirrorFollowAChangeFarFromThem) {
+    // Left of the mirror of metal lies a floor. A post is put up that throws its shadow there; the wall that
+    // the mirror shows changes its colour. Neither lies in a brick that changed.
+    Scene scene = plain_scene(R"({"size": [32, 24, 32],
+        "camera": {"position_vox": [12, 22, 24], "pitch_deg": -60, "fov_deg": 50},
+        "sun": {"azimuth_deg": 150, "elevation_deg": 35, "irradiance": [8, 8, 8], "angular_radius_deg": 0},
+        "sky": {"zenith": [0, 0, 0], "horizon": [0, 0, 0]},
+        "materials": {"metal": {"base_color": [1, 1, 1], "roughness": 0, "metallic": 1},
+                      "dirt": {"base_color": [0.02, 0.02, 0.02]}},
+        "build": [{"box": {"min": [0, 0, 0], "max": [32, 1, 32], "material": "wall"}},
+                  {"box": {"min": [12, 0, 8], "max": [32, 1, 24], "material": "metal"}},
+                  {"box": {"min": [0, 0, 0], "max": [32, 20, 2], "material": "wall"}}]})");
+    scene.settings.max_bounces = 2;
+    scene.settings.light_sampling = LightSampling::Lights;
+    scene.settings.history = History::Count;
+    scene.settings.history_cap = 100;
+    const glm::ivec2 size(64, 48);
+    const auto changed_world = [](Studio& studio) {
+        put(studio, {6, 10, 27}, 1, MATERIAL_STONE);
+        put(studio, {18, 12, 1}, 4, MATERIAL_DIRT);
+    };
+    Studio fresh(scene);
+    changed_world(fresh);
+    const Picture after = fresh.shoot(size);
+    double errors[2];
+    for (const bool retrace : {false, true}) {
+        scene.settings.retrace_changes = retrace;
+        Studio studio(scene);
+        for (int frame = 0; frame < 40; ++frame) studio.shoot(size);
+        changed_world(studio);
+        Picture picture;
+        for (int frame = 0; frame < 4; ++frame) picture = studio.shoot(size);
+        errors[retrace] = relative_error(picture, after);
+    }
+    // What is left lies at the shadow's edge, where some of the retraced paths saw no change.
+    EXPECT_LT(errors[1], 0.2 * errors[0]);
+}
+
+// A niche under a sky, whose light bounces often.
+Scene niche() {
+    return scene_from(R"({"size": [16, 12, 16],
+        "camera": {"position_vox": [8, 6, 15], "pitch_deg": -15, "fov_deg": 70},
+        "sun": {"azimuth_deg": 200, "elevation_deg": 50, "irradiance": [3, 3, 3], "angular_radius_deg": 2},
+        "build": [{"box": {"min": [0, 0, 0], "max": [16, 12, 2], "material": "wall"}},
+                  {"box": {"min": [0, 0, 0], "max": [2, 12, 16], "material": "wall"}},
+                  {"box": {"min": [14, 0, 0], "max": [16, 12, 16], "material": "dirt"}},
+                  {"box": {"min": [0, 0, 0], "max": [16, 1, 16], "material": "wall"}},
+                  {"box": {"min": [5, 1, 4], "max": [8, 5, 7], "material": "stone"}}]})");
+}
+
+TEST_F(ReuseTest, APictureAtRestNeverGetsWorseAndEndsAtTheExactMean) {
+    const glm::ivec2 size(24, 16);
+    const Picture exact = picture_of(niche(), 4000, size);
+    for (const Quality quality : {Quality::Fast, Quality::Balanced}) {
+        // Means of a few pictures: one may err by chance.
+        constexpr int pictures = 2;
+        std::map<int, double> errors;
+        for (int i = 0; i < pictures; ++i) {
+            Studio studio(niche());
+            apply_quality(studio.settings(), quality);
+            studio.renderer.set_frame_index(1000000u * (i + 1));
+            for (int frame = 1; frame <= 1024; ++frame) {
+                const bool looked_at = frame >= 32 && (frame & (frame - 1)) == 0;
+                if (looked_at)
+                    errors[frame] += relative_error(studio.shoot(size), exact) / pictures;
+                else
+                    studio.renderer.render(studio.simulation, studio.settings(), size);
+            }
+            EXPECT_GT(studio.renderer.samples(), 200u);
+        }
+        double least = INFINITY;
+        for (const auto& [frame, error] : errors) {
+            EXPECT_LT(error, 1.05 * least) << frame;
+            least = std::min(least, error);
+        }
+        EXPECT_LT(least, 0.1 * errors[32]);
+    }
+}
+
+TEST_F(ReuseTest, RestEndsWithAMoveAnEditOrAnotherViewAndCanBeSwitchedOff) {
+    const glm::ivec2 size(16, 12);
+    Studio studio(niche());
+    apply_quality(studio.settings(), Quality::Fast);
+    const auto rest = [&] {
+        for (int frame = 0; frame < 120; ++frame)
+            studio.renderer.render(studio.simulation, studio.settings(), size);
+        return studio.renderer.samples();
+    };
+    const auto kept_after = [&] {
+        studio.renderer.render(studio.simulation, studio.settings(), size);
+        return studio.renderer.samples();
+    };
+    // 120 frames, 32 of them the preset's, four to a sample.
+    EXPECT_NEAR(static_cast<double>(rest()), 22, 2);
+    studio.settings().camera_yaw_deg = 1;
+    EXPECT_EQ(kept_after(), 32u);
+    EXPECT_NEAR(static_cast<double>(rest()), 22, 2);
+    put(studio, {10, 3, 5}, 1, MATERIAL_STONE);
+    EXPECT_EQ(kept_after(), 32u);
+    EXPECT_NEAR(static_cast<double>(rest()), 22, 2);
+    studio.simulation.step(1, studio.settings());  // moves nothing
+    EXPECT_NEAR(static_cast<double>(kept_after()), 22, 2);
+    studio.settings().view = ViewKind::Depth;
+    EXPECT_EQ(kept_after(), 32u);
+    studio.settings().view = ViewKind::Picture;
+    studio.settings().refine_at_rest = false;
+    EXPECT_EQ(rest(), 32u);
+}
+
+// The bar for ghosts: the error is soon within 1.5 times of what it is in the long run. Prints after how many
+// frames.
+class Ghosts : public ReuseTest {
+  protected:
+    static constexpr glm::ivec2 size{80, 45};
+    static constexpr int frames_of_steady = 50;
+
+    Studio studio{balanced("waterfall")};
+
+    static Scene balanced(const char* name) {
+        Settings settings;
+        apply_quality(settings, Quality::Balanced);
+        settings.refine_at_rest = false;
+        return load_scene(name, settings);
+    }
+    void expect_no_ghost_of(const char* what, int frames_allowed) {
+        Settings exact = studio.settings();
+        apply_quality(exact, Quality::Exact);
+        // As the preset draws them: what differs for good says nothing of ghosts.
+        exact.caustics = false;
+        exact.smooth_water = exact.straight_sunlight = true;
+        exact.firefly_limit = studio.settings().firefly_limit;
+        Renderer reference(studio.scene, studio.timers);
+        for (int frame = 0; frame < 120; ++frame) reference.render(studio.simulation, exact, size);
+        const Picture expected{reference.read_radiance(), 0};
+        std::vector<double> errors;
+        for (int frame = 0; frame < frames_of_steady; ++frame)
+            errors.push_back(relative_error(studio.shoot(size), expected));
+        const double bar = 1.5 * errors.back();
+        const auto frames =
+            std::ranges::find_if(errors, [&](double e) { return e <= bar; }) - errors.begin() + 1;
+        fmt::print(
+            "{}: error {:.4f} in the first frame, {:.4f} in the long run, within 1.5 times from frame {}\n",
+            what, errors.front(), errors.back(), frames);
+        EXPECT_LE(frames, frames_allowed) << what;
+    }
+};
+
+TEST_F(Ghosts, AreGoneSoonAfterAStopAnEditAndAJump) {
+    studio.simulation.step(40, studio.settings());
+    for (int frame = 0; frame < 20; ++frame) {
+        studio.simulation.step(1, studio.settings());
+        studio.shoot(size);
+    }
+    expect_no_ghost_of("a waterfall that stops", 10);
+    put(studio, {48, 30, 60}, 4, MATERIAL_STONE);
+    expect_no_ghost_of("a block put up", 10);
+    put(studio, {48, 30, 60}, 4, MATERIAL_AIR);
+    expect_no_ghost_of("a block taken away", 10);
+    studio.settings().camera_position_vox += glm::vec3(20, 5, -15);
+    studio.settings().camera_yaw_deg -= 25;
+    // No ghost: so long takes the noise of a picture without history.
+    expect_no_ghost_of("a jump of the eye", 18);
+}
+
+}  // namespace
+}  // namespace tarn
