@@ -78,7 +78,7 @@ std::string bench_csv(std::span<const BenchFigure> figures) {
     std::string text = "suite,scene,what,who,unit,median,min,max,spread,samples\n";
     for (const BenchFigure& f : figures) {
         const Statistics s = statistics_of(f.samples);
-        text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", f.key.suite, f.key.scene, f.key.what,
+        text += fmt::format("{},{},\"{}\",{},{},{},{},{},{},{}\n", f.key.suite, f.key.scene, f.key.what,
                             f.key.who, f.unit, s.median, s.min, s.max, s.spread, f.samples.size());
     }
     return text;
