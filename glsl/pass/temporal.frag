@@ -71,6 +71,22 @@ float frames_kept_of_light(vec2 ndc) {
 }
 #endif
 
+// What is seen in or through a smooth surface glides over it as the eye moves. History may lag behind by this many pixels.
+const float IMAGE_LAG_PX = 3.0;
+
+bool shows_an_image(uint id) {
+    return id != SURFACE_SKY && (transmits(id) || materials[id].emission_metallic.w > 0.5);
+}
+
+// Frames that may be kept of an image in the surface at `at_vox`: a far one glides by the angle that the eye's way spans
+// there. Turning the eye moves nothing.
+float frames_kept_of_image(vec3 at_vox, float height_px) {
+    vec3 now = normalize(at_vox - frame.camera_position_vox.xyz);
+    vec3 before = normalize(at_vox - frame.previous_position_vox.xyz);
+    float pixels = distance(now, before) * 0.5 * height_px / length(frame.camera_up.xyz);
+    return IMAGE_LAG_PX / max(pixels, 1e-6);
+}
+
 bool changed_since(vec3 at_vox) {
     ivec3 cell = clamp(ivec3(floor(at_vox)), ivec3(0), frame.world_size_vox.xyz - 1);
     uint stamp = texelFetch(brick_changed, cell >> BRICK_SHIFT, 0).r;
@@ -219,6 +235,8 @@ void main() {
         count = history.a;
         if (id != SURFACE_SKY && changed_since(here.xyz - 0.5 * n))
             count = min(count, SAMPLES_A_FRAME * FRAMES_KEPT_NEAR_CHANGE);
+        if (shows_an_image(id))
+            count = min(count, SAMPLES_A_FRAME * frames_kept_of_image(here.xyz, float(textureSize(previous_radiance, 0).y)));
         count = min(count, frame.history.y - 1.0);
 #ifndef HISTORY_BLEND
         for (bool once = is_retraced && !is_moving(here.w); once; once = false)
