@@ -51,7 +51,10 @@ vec3 trace_path(vec3 eye_vox, vec3 dir, out FirstSurface first) {
 #endif
     if (!enter_world(eye_vox, dir, ray, t_entry))
         return sky_radiance(dir) + (in_sun_disc(dir) ? frame.sun_radiance.rgb : vec3(0.0));
-    if (!transmits(ray.medium)) return vec3(0.0);  // the eye is inside a solid
+    if (!transmits(ray.medium)) {  // the eye is inside a solid
+        first = FirstSurface(eye_vox, vec3(0.0), 0.0, ray.medium);
+        return vec3(0.0);
+    }
     float t_max = frame.trace_limits.x;
     float eye_ior = ior_of(ray.medium);
     float medium_ior = eye_ior;
