@@ -27,7 +27,7 @@ vec3 preset_radiance(ivec2 at) {
 // their difference around the pixel beyond what v explains; three times v, so that its chance is not taken for b.
 const float VARIANCE_DOUBTED = 3.0;
 // Samples after which the estimate counts, and the weight that comes without it, for small errors: n / (n + this).
-const float SAMPLES_OF_ESTIMATE = 32.0;
+const float SAMPLES_OF_ESTIMATE = 64.0;
 const float SAMPLES_TRUSTED = 1024.0;
 
 float weight_of_exact(ivec2 at) {
@@ -35,7 +35,7 @@ float weight_of_exact(ivec2 at) {
     float deviations = 0.0;
     ivec2 last = frame.size_px.zw - 1;
     for (int k = 0; k < 9; ++k) {
-        ivec2 tap = clamp(at + 2 * (ivec2(k % 3, k / 3) - 1), ivec2(0), last);
+        ivec2 tap = clamp(at + ivec2(k % 3, k / 3) - 1, ivec2(0), last);
         float d = luminance(texelFetch(exact_mean, tap, 0).rgb) - luminance(preset_radiance(tap));
         difference += d * d;
         deviations += texelFetch(exact_sum, tap, 0).a;
