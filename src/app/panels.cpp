@@ -20,7 +20,7 @@ struct HelpLine {
 constexpr HelpLine help_lines[] = {
     {nullptr, "Fly"},
     {"W A S D, arrows", "forward, left, back, right"},
-    {"Space, Ctrl", "up, down"},
+    {"Space, C", "up, down"},
     {"Shift", "four times as fast"},
     {"Tab or M", "look with the mouse, on and off; the brush then aims at the cross"},
     {"F or Alt", "look with the mouse while held"},

@@ -25,53 +25,29 @@ struct KeyBinding {
 };
 
 constexpr KeyBinding key_bindings[] = {
-    {GLFW_KEY_W, Key::Forward},
-    {GLFW_KEY_UP, Key::Forward},
-    {GLFW_KEY_S, Key::Back},
-    {GLFW_KEY_DOWN, Key::Back},
-    {GLFW_KEY_A, Key::Left},
-    {GLFW_KEY_LEFT, Key::Left},
-    {GLFW_KEY_D, Key::Right},
-    {GLFW_KEY_RIGHT, Key::Right},
-    {GLFW_KEY_SPACE, Key::Up},
-    {GLFW_KEY_LEFT_CONTROL, Key::Down},
-    {GLFW_KEY_RIGHT_CONTROL, Key::Down},
-    {GLFW_KEY_LEFT_SHIFT, Key::Fast},
-    {GLFW_KEY_RIGHT_SHIFT, Key::Fast},
-    {GLFW_KEY_Z, Key::Undo},
-    {GLFW_KEY_Y, Key::Redo},
-    {GLFW_KEY_P, Key::Pause},
-    {GLFW_KEY_PAUSE, Key::Pause},
-    {GLFW_KEY_N, Key::Step},
-    {GLFW_KEY_PERIOD, Key::Step},
-    {GLFW_KEY_EQUAL, Key::Faster},
-    {GLFW_KEY_KP_ADD, Key::Faster},
-    {GLFW_KEY_MINUS, Key::Slower},
-    {GLFW_KEY_KP_SUBTRACT, Key::Slower},
-    {GLFW_KEY_R, Key::Reset},
-    {GLFW_KEY_H, Key::Help},
-    {GLFW_KEY_F1, Key::Help},
-    {GLFW_KEY_O, Key::Settings},
-    {GLFW_KEY_F2, Key::Settings},
-    {GLFW_KEY_F3, Key::Overlay},
-    {GLFW_KEY_F12, Key::Screenshot},
-    {GLFW_KEY_V, Key::View},
-    {GLFW_KEY_TAB, Key::MouseLook},
-    {GLFW_KEY_M, Key::MouseLook},
-    {GLFW_KEY_F, Key::MouseLookHold},
-    {GLFW_KEY_LEFT_ALT, Key::MouseLookHold},
-    {GLFW_KEY_B, Key::Brush},
-    {GLFW_KEY_X, Key::Overwrite},
-    {GLFW_KEY_ESCAPE, Key::Release},
-    {GLFW_KEY_1, Key::Digit1},
-    {GLFW_KEY_2, Key::Digit2},
-    {GLFW_KEY_3, Key::Digit3},
-    {GLFW_KEY_4, Key::Digit4},
-    {GLFW_KEY_5, Key::Digit5},
-    {GLFW_KEY_6, Key::Digit6},
-    {GLFW_KEY_7, Key::Digit7},
-    {GLFW_KEY_8, Key::Digit8},
-    {GLFW_KEY_9, Key::Digit9},
+    {GLFW_KEY_W, Key::Forward},       {GLFW_KEY_UP, Key::Forward},
+    {GLFW_KEY_S, Key::Back},          {GLFW_KEY_DOWN, Key::Back},
+    {GLFW_KEY_A, Key::Left},          {GLFW_KEY_LEFT, Key::Left},
+    {GLFW_KEY_D, Key::Right},         {GLFW_KEY_RIGHT, Key::Right},
+    {GLFW_KEY_SPACE, Key::Up},        {GLFW_KEY_C, Key::Down},  // not Ctrl: undo by Ctrl+Z would sink the eye
+    {GLFW_KEY_LEFT_SHIFT, Key::Fast}, {GLFW_KEY_RIGHT_SHIFT, Key::Fast},
+    {GLFW_KEY_Z, Key::Undo},          {GLFW_KEY_Y, Key::Redo},
+    {GLFW_KEY_P, Key::Pause},         {GLFW_KEY_PAUSE, Key::Pause},
+    {GLFW_KEY_N, Key::Step},          {GLFW_KEY_PERIOD, Key::Step},
+    {GLFW_KEY_EQUAL, Key::Faster},    {GLFW_KEY_KP_ADD, Key::Faster},
+    {GLFW_KEY_MINUS, Key::Slower},    {GLFW_KEY_KP_SUBTRACT, Key::Slower},
+    {GLFW_KEY_R, Key::Reset},         {GLFW_KEY_H, Key::Help},
+    {GLFW_KEY_F1, Key::Help},         {GLFW_KEY_O, Key::Settings},
+    {GLFW_KEY_F2, Key::Settings},     {GLFW_KEY_F3, Key::Overlay},
+    {GLFW_KEY_F12, Key::Screenshot},  {GLFW_KEY_V, Key::View},
+    {GLFW_KEY_TAB, Key::MouseLook},   {GLFW_KEY_M, Key::MouseLook},
+    {GLFW_KEY_F, Key::MouseLookHold}, {GLFW_KEY_LEFT_ALT, Key::MouseLookHold},
+    {GLFW_KEY_B, Key::Brush},         {GLFW_KEY_X, Key::Overwrite},
+    {GLFW_KEY_ESCAPE, Key::Release},  {GLFW_KEY_1, Key::Digit1},
+    {GLFW_KEY_2, Key::Digit2},        {GLFW_KEY_3, Key::Digit3},
+    {GLFW_KEY_4, Key::Digit4},        {GLFW_KEY_5, Key::Digit5},
+    {GLFW_KEY_6, Key::Digit6},        {GLFW_KEY_7, Key::Digit7},
+    {GLFW_KEY_8, Key::Digit8},        {GLFW_KEY_9, Key::Digit9},
 };
 
 constexpr std::pair<int, MouseButton> button_bindings[] = {
@@ -306,9 +282,6 @@ class Window : public Platform {
         for (const KeyBinding& binding : key_bindings) {
             if (is_code_down(binding.code)) input.down[static_cast<std::size_t>(binding.key)] = true;
         }
-        // Ctrl of Ctrl+Z is not a wish to sink.
-        if (is_code_down(GLFW_KEY_Z) || is_code_down(GLFW_KEY_Y))
-            input.down[static_cast<std::size_t>(Key::Down)] = false;
     }
 
     void read_mouse(Input& input) const {
