@@ -210,6 +210,8 @@ void App::change_settings(const Input& input, Actions& actions) {
 }
 
 void App::govern(const Input& input) {
+    // Of a refined picture's time the table knows nothing.
+    if (renderer_->is_refining()) return;
     const std::size_t point = front_point(settings_.tradeoff);
     const double target_ms = settings_.governor ? settings_.frame_time_target_ms : 0;
     const std::size_t next = governor_.frame(input.dt_s * 1000, point, target_ms);

@@ -357,6 +357,10 @@ std::uint64_t Renderer::samples() const {
     return frames * static_cast<std::uint64_t>(s.samples_per_pixel);
 }
 
+bool Renderer::is_refining() const {
+    return parts_->refinement.targets.has_value();
+}
+
 std::uint64_t Renderer::rejected_samples() const {
     std::uint32_t count = 0;
     parts_->rejected.download(std::span(&count, 1));

@@ -65,6 +65,7 @@ class Renderer {
 
     // Kept per pixel: of exact mode and of a refined picture all; else up to the cap.
     std::uint64_t samples() const;
+    bool is_refining() const;                // the last frame was exact, of a picture at rest
     std::uint64_t rejected_samples() const;  // not finite, since the start
     // Keeps from the next frame on what an estimate needs.
     void keep_variance(bool on);
