@@ -165,8 +165,10 @@ void expect_floor(Studio& studio, glm::ivec2 size, const std::string& what) {
             const glm::dvec3 point = glm::dvec3(eye) + t * dir;
             const double margin = std::min({point.x, point.z, world.x - point.x, world.z - point.z});
             if (!(t > 0) || margin < 0.01) continue;
-            // float32: the direction is rounded to 1e-7, which a flat ray enlarges.
-            EXPECT_NEAR(depth.at(x, y).x, t, t * (1e-6 + 2e-7 / std::abs(dir.y)))
+            // float32: the direction is rounded to 1e-7, which a flat ray enlarges; the hit to its
+            // coordinates.
+            EXPECT_NEAR(depth.at(x, y).x, t,
+                        t * (1e-6 + 2e-7 / std::abs(dir.y)) + 1.2e-7 * std::max(world.x, world.z))
                 << what << " at " << x << ", " << y;
             ++seen;
         }
