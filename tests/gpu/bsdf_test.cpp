@@ -67,7 +67,7 @@ TEST_F(BsdfTest, SequencesSpreadEvenlyAndEachOfTheirPathsIsUnbiased) {
         program.dispatch_for({count, 1, 1}, {64, 1, 1});
         buffer.download(std::span(&result, 1));
         // 4096 expected: five standard deviations are 320.
-        for (const std::uint32_t bin : result.histogram) EXPECT_NEAR(bin, count / 16, 320) << path;
+        for (const std::uint32_t bin : result.histogram) EXPECT_NEAR(bin, count / 16.0, 320) << path;
         // Of independent numbers 255.5; five standard deviations are 4.4.
         EXPECT_NEAR(static_cast<double>(result.products) / count, 255.5, 4.4) << path;
         // 4 expected; of 64 independent numbers some pixel has none and some pixel 15 in a bin.

@@ -204,9 +204,8 @@ class Ghosts : public ReuseTest {
         Renderer reference(studio.scene, studio.timers);
         for (int frame = 0; frame < 120; ++frame) reference.render(studio.simulation, exact, size);
         const Picture expected{reference.read_radiance(), 0};
-        std::vector<double> errors;
-        for (int frame = 0; frame < frames_of_steady; ++frame)
-            errors.push_back(relative_error(studio.shoot(size), expected));
+        std::vector<double> errors(frames_of_steady);
+        for (double& error : errors) error = relative_error(studio.shoot(size), expected);
         const double bar = 1.5 * errors.back();
         const auto frames =
             std::ranges::find_if(errors, [&](double e) { return e <= bar; }) - errors.begin() + 1;
