@@ -104,6 +104,7 @@ void App::load(const std::string& name_or_path) {
     Settings base;
     apply_quality(base, Quality::Balanced);
     Scene scene = load_scene(name_or_path, base);
+    end_recording();
     auto simulation = std::make_unique<Simulation>(scene, timers_);
     auto renderer = std::make_unique<Renderer>(scene, timers_, &trace_programs_);
     scene_ = std::move(scene);
@@ -116,6 +117,7 @@ void App::load(const std::string& name_or_path) {
 }
 
 void App::reload() {
+    end_recording();
     simulation_ = std::make_unique<Simulation>(scene_, timers_);
     renderer_->world_replaced();
     history_.clear();

@@ -64,6 +64,7 @@ class App {
     void draw_overlays(const Input& input);
     void write_screenshot();
     void start_or_stop_recording();
+    void end_recording();  // before the world is another
     void say(const std::string& text);
     void set_captured(bool captured);
     void set_title();

@@ -85,4 +85,8 @@ void App::start_or_stop_recording() {
     }
 }
 
+void App::end_recording() {
+    if (recorder_.is_on()) start_or_stop_recording();
+}
+
 }  // namespace tarn

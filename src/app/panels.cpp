@@ -109,7 +109,8 @@ void draw_world(const Panels::Inputs& inputs, Actions& actions) {
     actions.screenshot |= button("Picture", "Write tarn-0001.png and its settings beside it (F12).");
     ImGui::SameLine();
     actions.record |= button(inputs.recording ? "Stop" : "Record",
-                             "Record the flight and all edits to tarn-0001.flight.json, until pressed again; "
+                             "Record the flight and the strokes of the brush, not what is undone, to "
+                             "tarn-0001.flight.json, until pressed again or the world is loaded anew; "
                              "`tarn render --path` plays it.");
 }
 

@@ -66,10 +66,9 @@ void Renderer::Parts::refine(const Simulation& simulation, const Settings& now) 
     if (needed.emitters) update_emitters(simulation);
     const glm::ivec2 size = targets->shown_px;
     const int first_row = size.y * r.band / bands;
-    glEnable(GL_SCISSOR_TEST);
-    glScissor(0, first_row, size.x, size.y * (r.band + 1) / bands - first_row);
-    choice.pass.record(trace_inputs(simulation, needed), {.target = r.targets->trace_target[0]}, timers);
-    glDisable(GL_SCISSOR_TEST);
+    const gl::Rows rows{first_row, size.y * (r.band + 1) / bands - first_row};
+    choice.pass.record(trace_inputs(simulation, needed), {.target = r.targets->trace_target[0], .rows = rows},
+                       timers);
     r.band = (r.band + 1) % bands;
     if (r.band != 0) return;
     r.current = 1 - r.current;

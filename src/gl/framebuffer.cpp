@@ -55,15 +55,17 @@ Framebuffer& Framebuffer::operator=(Framebuffer&& other) noexcept {
     return *this;
 }
 
-void Framebuffer::draw_fullscreen() const {
+void Framebuffer::draw_rows(Rows rows) const {
     glBindFramebuffer(GL_FRAMEBUFFER, name_);
     glViewport(0, 0, size_.x, size_.y);
     glDisable(GL_BLEND);
     glDisable(GL_DEPTH_TEST);
-    glDisable(GL_SCISSOR_TEST);
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(0, rows.first, size_.x, rows.count);
     glDisable(GL_CULL_FACE);
     glBindVertexArray(empty_vertex_array());
     glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDisable(GL_SCISSOR_TEST);
 }
 
 }  // namespace tarn::gl

@@ -9,6 +9,10 @@
 
 namespace tarn::gl {
 
+struct Rows {
+    int first, count;
+};
+
 class Framebuffer {
   public:
     Framebuffer() = default;
@@ -24,7 +28,9 @@ class Framebuffer {
     explicit operator bool() const { return name_ != 0; }
 
     // Runs the bound render program once for every pixel.
-    void draw_fullscreen() const;
+    void draw_fullscreen() const { draw_rows({0, size_.y}); }
+    // For those of some rows; the others keep what they hold.
+    void draw_rows(Rows rows) const;
 
   private:
     GLuint name_ = 0;

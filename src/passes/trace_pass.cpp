@@ -37,7 +37,7 @@ gl::ProgramDesc describe(const TraceFeatures& features) {
 
 TracePass::TracePass(const TraceFeatures& features) : features_(features), program_(describe(features)) {}
 
-void TracePass::draw(const Inputs& inputs, const gl::Framebuffer& target) const {
+void TracePass::draw(const Inputs& inputs, const Outputs& outputs) const {
     inputs.cells.bind_image(IMAGE_CELLS, GL_READ_ONLY);
     if (features_.skip) inputs.brick_rooms.bind_image(IMAGE_BRICK_ROOMS, GL_READ_ONLY);
     if (features_.coated) {
@@ -53,13 +53,13 @@ void TracePass::draw(const Inputs& inputs, const gl::Framebuffer& target) const 
     }
     program_.set("stride", inputs.stride);
     program_.use();
-    target.draw_fullscreen();
+    outputs.target.draw_rows(outputs.rows.value_or(gl::Rows{0, outputs.target.size().y}));
 }
 
 void TracePass::record(const Inputs& inputs, const Outputs& outputs, gl::Timers& timers) const {
     CHECK(!features_.emitters || inputs.emitters != nullptr);
     const auto scope = timers.scope("trace");
-    draw(inputs, outputs.target);
+    draw(inputs, outputs);
 }
 
 void TracePass::rehearse(const TraceShapes& shapes) const {
@@ -89,7 +89,7 @@ void TracePass::rehearse(const TraceShapes& shapes) const {
           .rejected = rejected,
           .brick_changed = brick_changed,
           .still_since = 0},
-         target);
+         {.target = target});
     if (features_.emitters) {
         gl::Timers timers;
         const glm::ivec3 size_bricks{2};

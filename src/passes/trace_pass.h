@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <compare>
+#include <optional>
 
 #include "gl/buffer.h"
 #include "gl/framebuffer.h"
@@ -47,7 +48,8 @@ class TracePass {
         std::uint32_t stride = 1;   // of the pixels traced, along x and y
     };
     struct Outputs {
-        const gl::Framebuffer& target;  // radiance, surface; with count: counts
+        const gl::Framebuffer& target;   // radiance, surface; with count: counts
+        std::optional<gl::Rows> rows{};  // that are traced; the others keep what they hold
     };
 
     explicit TracePass(const TraceFeatures& features);
@@ -60,7 +62,7 @@ class TracePass {
     gl::Program& program() { return program_; }
 
   private:
-    void draw(const Inputs& inputs, const gl::Framebuffer& target) const;
+    void draw(const Inputs& inputs, const Outputs& outputs) const;
 
     TraceFeatures features_;
     gl::Program program_;

@@ -6,6 +6,9 @@
 #include <chrono>
 #include <cstddef>
 #include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "core/error.h"
 #include "core/files.h"
@@ -13,6 +16,7 @@
 #include "gl/framebuffer.h"
 #include "gl/program.h"
 #include "gpu/gl_test.h"
+#include "shared/bindings.h"
 #include "shared/frame.h"
 
 namespace tarn {
@@ -54,6 +58,38 @@ TEST_F(ProgramTest, frame_block_has_the_same_offsets_in_glsl_and_cpp) {
     TARN_FRAME_FIELDS(TARN_FIELD)
 #undef TARN_FIELD
     EXPECT_EQ(block_values[1], fields);
+}
+
+TEST_F(ProgramTest, DrawsOnlyTheRowsThatAreAskedFor) {
+    const glm::ivec2 size(2, 8);
+    const gl::Program program({.label = "rows",
+                               .compute = {},
+                               .vertex = "pass/fullscreen.vert",
+                               .fragment = "pass/display.frag",
+                               .defines = {{"DISPLAY_RADIANCE", "1"}}});
+    FrameBlock block{};
+    block.size_px = glm::ivec4(size, size);
+    gl::Buffer frame("frame block", sizeof(block));
+    frame.upload(std::span(&block, 1));
+    frame.bind_uniform(BINDING_FRAME);
+    const gl::Texture ones({.label = "ones", .format = GL_RGBA32F, .size = {size, 0}});
+    const gl::Texture picture({.label = "picture", .format = GL_RGBA32F, .size = {size, 0}});
+    const float one[] = {1, 1, 1, 1};
+    glClearTexImage(ones.name(), 0, GL_RGBA, GL_FLOAT, one);
+    ones.bind(BINDING_FIRST_INPUT);
+    const gl::Framebuffer target("picture", {&picture});
+    const auto drawn_after = [&](auto draw) {
+        glClearTexImage(picture.name(), 0, GL_RGBA, GL_FLOAT, nullptr);
+        program.use();
+        draw();
+        std::vector<float> pixels(std::size_t{2} * 8);
+        picture.download(std::span(pixels), GL_RED, GL_FLOAT);
+        std::string rows;
+        for (std::size_t y = 0; y < 8; ++y) rows += pixels[2 * y] == 1 && pixels[2 * y + 1] == 1 ? '#' : '.';
+        return rows;
+    };
+    EXPECT_EQ(drawn_after([&] { target.draw_rows({2, 3}); }), "..###...");
+    EXPECT_EQ(drawn_after([&] { target.draw_fullscreen(); }), "########");
 }
 
 TEST_F(ProgramTest, frame_block_values_arrive) {
