@@ -52,8 +52,8 @@ TEST(BenchReport, JsonHoldsEverySampleAndReadsBack) {
 TEST(BenchReport, CsvHasOneRowAFigure) {
     EXPECT_EQ(bench_csv(figures),
               "suite,scene,what,who,unit,median,min,max,spread,samples\n"
-              "rays,terrain-128,primary,tarn,Mrays/s,5,4,6,0.2,3\n"
-              "sim,terrain-128,tick,awake,ms,0.2,0.1,0.3,0.5,2\n");
+              "rays,terrain-128,\"primary\",tarn,Mrays/s,5,4,6,0.2,3\n"
+              "sim,terrain-128,\"tick\",awake,ms,0.2,0.1,0.3,0.5,2\n");
 }
 
 TEST(BenchReport, ComparesWhatBothRunsHold) {
