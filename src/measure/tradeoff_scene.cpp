@@ -56,7 +56,8 @@ TradeoffScene::TradeoffScene(const std::string& name, std::uint64_t ticks, const
 Settings TradeoffScene::settings_of(const Configuration& configuration) const {
     Settings settings = scene_.settings;
     apply(configuration, settings);
-    settings.refine_at_rest = false;  // it comes after the frames that are compared, at a time that is not measured
+    settings.refine_at_rest =
+        false;  // it comes after the frames that are compared, at a time that is not measured
     return settings;
 }
 
