@@ -56,8 +56,8 @@ TradeoffScene::TradeoffScene(const std::string& name, std::uint64_t ticks, const
 Settings TradeoffScene::settings_of(const Configuration& configuration) const {
     Settings settings = scene_.settings;
     apply(configuration, settings);
-    settings.refine_at_rest =
-        false;  // it comes after the frames that are compared, at a time that is not measured
+    // Refined frames take a time that is not measured here.
+    settings.refine_at_rest = false;
     return settings;
 }
 
