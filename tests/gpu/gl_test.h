@@ -20,8 +20,6 @@ class GlTest : public testing::Test {
         EXPECT_EQ(gl::debug_log().high_severity, 0)
             << fmt::format("{}", fmt::join(gl::debug_log().messages, "\n"));
     }
-
-  private:
     static std::unique_ptr<Platform>& platform() {
         static std::unique_ptr<Platform> instance;
         return instance;

@@ -20,22 +20,7 @@ namespace {
 
 constexpr glm::ivec2 size_px{40, 24};
 
-// As GlTest, and its platform's shared context.
-class TraceProgramsTest : public testing::Test {
-  protected:
-    static void SetUpTestSuite() { platform() = make_headless(size_px, 1); }
-    static void TearDownTestSuite() { platform().reset(); }
-    void SetUp() override { gl::clear_debug_log(); }
-    void TearDown() override {
-        gl::collect_errors();
-        EXPECT_EQ(gl::debug_log().high_severity, 0)
-            << fmt::format("{}", fmt::join(gl::debug_log().messages, "\n"));
-    }
-    static std::unique_ptr<Platform>& platform() {
-        static std::unique_ptr<Platform> instance;
-        return instance;
-    }
-};
+using TraceProgramsTest = GlTest;
 
 // A floor, a wall and what `build` adds, under a sun; quality balanced.
 Scene room(const std::string& build) {
