@@ -1,5 +1,5 @@
-// What rays skip by (glsl/shared/rooms.h), counted from the cells: rooms grow level by level, each made of
-// eight or four of the level below, so that nothing is shared with the sweeps of the shader.
+// What rays skip by (glsl/shared/rooms.h), counted from the cells: rooms grow level by level, each covered by
+// eight or fewer of the level below, so that nothing is shared with the sweeps of the shader.
 #pragma once
 #include <array>
 #include <vector>
@@ -53,14 +53,16 @@ class BrickRooms {
             std::vector<char> clear = alone;  // the room of the level
             std::vector<std::uint32_t> levels(clear.size(), 0);
             for (int level = 1; level < ROOM_LEVELS; ++level) {
-                const glm::ivec3 part(room_across(level - 1), room_up(level - 1), room_across(level - 1));
-                const bool higher = room_up(level) > room_up(level - 1);
+                // How far apart two of the level below lie in it: they cover it.
+                const int across = room_across(level) - room_across(level - 1);
+                const int up = room_up(level) - room_up(level - 1);
+                const glm::ivec3 apart(across, up, across);
                 const std::vector<char> before = clear;
                 for_bricks([&](glm::ivec3 brick) {
                     bool all = true;
                     for (int corner = 0; corner < 8; ++corner) {
-                        const glm::ivec3 shift(corner & 1, higher ? corner >> 1 & 1 : 0, corner >> 2);
-                        const glm::ivec3 other = brick + ahead * shift * part;
+                        const glm::ivec3 shift(corner & 1, corner >> 1 & 1, corner >> 2);
+                        const glm::ivec3 other = brick + ahead * shift * apart;
                         const bool inside = glm::all(glm::greaterThanEqual(other, glm::ivec3(0))) &&
                                             glm::all(glm::lessThan(other, size_));
                         all = all && (inside ? before[flat(other)] != 0 : air);

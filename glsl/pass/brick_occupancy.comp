@@ -6,6 +6,7 @@
 #include "shared/rooms.h"
 #include "lib/matter.glsl"
 #include "lib/new_changes.glsl"
+#include "lib/room_lines.glsl"
 
 layout(local_size_x = CHANGES_PER_GROUP) in;
 
@@ -16,12 +17,9 @@ layout(rg32ui, binding = 1) writeonly uniform uimage3D brick_rooms;
 
 // Indirect arguments of brick_rooms.comp, by axis: 0 groups until something changed.
 layout(std430, binding = STORAGE_ROOM_GROUPS) writeonly buffer RoomGroups { uint groups[9]; };
-// Version at which lines of bricks were marked: along y (x fastest), then along x (y fastest), then along z (x fastest).
-layout(std430, binding = STORAGE_ROOM_LINES) writeonly buffer Lines { uint marked[]; };
 
 uniform ivec3 size_bricks;
 uniform uvec3 line_groups;  // along x, y, z: ceil(size / 8)
-uniform uint version;
 
 void main() {
     uint item = new_change_item();
@@ -67,7 +65,9 @@ void main() {
     }
     if (held == holds) return;
     imageStore(occupancy, brick, uvec4(holds, 0u, 0u));
-    marked[brick.x + size_bricks.x * brick.z] = version;
+    for (int medium = 0; medium < 2; ++medium)
+        if ((medium == 0 ? held.r : held.g) != (medium == 0 ? holds.r : holds.g))
+            mark_room_line(1, brick, size_bricks, medium, 0, ROOM_LEVELS - 1);
     groups[0] = line_groups.y;
     groups[1] = line_groups.z;
     groups[3] = line_groups.x;

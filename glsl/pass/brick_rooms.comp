@@ -1,109 +1,96 @@
-// One axis of the clear rooms ahead of bricks (shared/rooms.h), in the order y, x, z. An invocation a line of bricks
-// that is marked: it goes along the line both ways and counts the levels whose room is clear so far. Where a count
-// changed, the line of the next axis is marked.
+// One axis of the clear rooms ahead of bricks (shared/rooms.h), in the order y, x, z: for every brick the number of
+// levels whose room is clear so far. An invocation a line of bricks: it goes along the line both ways, from as far ahead
+// of what changed as a room reaches to as far behind. Where a count changed, the line of the next axis is marked.
 #include "shared/bindings.h"
 #include "shared/rooms.h"
+#include "lib/room_lines.glsl"
 
 layout(local_size_x = 8, local_size_y = 8, local_size_z = 1) in;
 
-layout(binding = BINDING_FIRST_INPUT) uniform usampler3D source;  // y: occupancy; else the axis before
+// y: occupancy; else the axis before. Full water lies behind air, but in the occupancy.
+layout(binding = BINDING_FIRST_INPUT) uniform usampler3D source;
 #if AXIS == 1
-layout(rg8ui, binding = 0) uniform uimage3D target;  // r: air, g: water; 4 bits a count, from bit 4 b
+layout(r8ui, binding = 0) uniform uimage3D target;  // 4 bits a count, from bit 4 b
 #endif
 #if AXIS == 0
-layout(rg16ui, binding = 0) uniform uimage3D target;  // the same, from bit 4 (a + 2 b)
+layout(r16ui, binding = 0) uniform uimage3D target;  // from bit 4 (a + 2 b)
 #endif
 #if AXIS == 2
 layout(rg32ui, binding = 0) uniform uimage3D target;  // the words
 #endif
 
-layout(std430, binding = STORAGE_ROOM_LINES) buffer Lines { uint marked[]; };
-
 uniform ivec3 size_bricks;
-uniform uint version;
 
 // Length of a room along this axis.
 int room_length(int level) { return AXIS == 1 ? room_up(level) : room_across(level); }
 
-// Of every brick beyond the world, for rays in air.
-const int BEYOND = 4096;
-
-// Nearest bricks ahead along the line that stop a room of each level.
-struct Stops {
-    ivec4 low, high;
-};
-
-// The count at `i` for the stops ahead, which the brick itself joins where fewer than `levels` are clear in it.
-uint count_of(inout Stops stops, int i, uint levels) {
-    stops.low = mix(stops.low, ivec4(i), lessThanEqual(uvec4(levels), uvec4(0u, 1u, 2u, 3u)));
-    stops.high = mix(stops.high, ivec4(i), lessThanEqual(uvec4(levels), uvec4(4u, 5u, 6u, 7u)));
-    ivec4 low = ivec4(room_length(0), room_length(1), room_length(2), room_length(3));
-    ivec4 high = ivec4(room_length(4), room_length(5), room_length(6), room_length(7));
-    ivec4 passed =
-        ivec4(greaterThanEqual(abs(stops.low - i), low)) + ivec4(greaterThanEqual(abs(stops.high - i), high));
-    return uint(passed.x + passed.y + passed.z + passed.w);
-}
-
+// A byte a level, from the lowest.
 #if AXIS == 1
-const int WAYS = 1;  // of the axes before
-#endif
-#if AXIS == 0
-const int WAYS = 2;
-#endif
-#if AXIS == 2
-const int WAYS = 4;
-#endif
-
-// Counts of all ways at a brick, 4 bits each.
-uint counts_before(ivec3 brick, int medium) {
-    uvec2 value = texelFetch(source, brick, 0).rg;
-    uint counts = medium == 0 ? value.r : value.g;
-#if AXIS == 1
-    return counts == 0u ? uint(ROOM_LEVELS) : 0u;
+const uvec2 LENGTHS = uvec2(0x02010101u, 0x20100804u);
 #else
-    return counts;
+const uvec2 LENGTHS = uvec2(0x08040201u, 0x20202010u);
+#endif
+uvec2 levels_from(int level) {
+    return uvec2(level < 4 ? 0xffffffffu << (8 * level) : 0u, level < 8 ? 0xffffffffu << (8 * max(level - 4, 0)) : 0u);
+}
+// 1 in each byte that is not zero; bytes are below 128.
+uvec2 ones(uvec2 bytes) { return ((bytes + 0x7f7f7f7fu) >> 7) & 0x01010101u; }
+int sum_of(uvec2 bytes) { return int(((bytes.x + bytes.y) * 0x01010101u) >> 24); }
+
+// Levels clear at a brick for the axes before.
+int count_before(ivec3 brick, int medium, int way) {
+#if AXIS == 1
+    return texelFetch(source, brick, 0)[medium] == 0u ? ROOM_LEVELS : 0;
+#else
+    return int(texelFetch(source, brick + ivec3(0, 0, medium * size_bricks.z), 0).r >> (4 * way) & 15u);
 #endif
 }
 
-void walk(ivec3 brick, int medium, bool rises) {
+// Sets the count of a brick for rooms that go up along the axis or down. `count` knows of the levels up to `top` only:
+// none above has changed.
+void set_count(ivec3 brick, int medium, int way, bool rises, int count, int top) {
+    ivec3 at = brick + ivec3(0, 0, medium * size_bricks.z);
+    uint old = imageLoad(target, at).r;
+#if AXIS == 2
+    int shift = 3 * (way + (rises ? 4 : 0));
+    int old_count = int(old >> shift & 7u) + 1;
+#else
+    int part = (rises ? 1 : 0) + 2 * way;
+    int shift = 4 * part;
+    int old_count = int(old >> shift & 15u);
+#endif
+    if (count > top) count = max(count, old_count);
+#if AXIS == 2
+    if (count == 0 || count == old_count) return;  // not clear: its word is a mask
+    uint kept = old & ~(7u << shift);
+    imageStore(target, at, uvec4(kept | uint(count - 1) << shift, ROOM_CLEAR, 0u, 0u));
+#else
+    if (count == old_count) return;
+    uint kept = old & ~(15u << shift);
+    imageStore(target, at, uvec4(kept | uint(count) << shift, 0u, 0u, 0u));
+    mark_room_line(AXIS == 1 ? 0 : 2, brick, size_bricks, medium, part, max(count, old_count) - 1);
+#endif
+}
+
+// Against the rays. `first` and `last`: the bricks between which counts before changed, in that order.
+void walk(ivec3 brick, int medium, int way, bool rises, int first, int last, int top) {
     int n = size_bricks[AXIS];
-    int beyond = rises ? (medium == 0 ? n + BEYOND : n) : (medium == 0 ? -1 - BEYOND : -1);
-    Stops stops[WAYS];
-    for (int way = 0; way < WAYS; ++way) stops[way] = Stops(ivec4(beyond), ivec4(beyond));
-    for (int k = 0; k < n; ++k) {
-        int i = rises ? n - 1 - k : k;
-        brick[AXIS] = i;
-        uint before = counts_before(brick, medium);
-        uint counts[WAYS];
-        for (int way = 0; way < WAYS; ++way) counts[way] = count_of(stops[way], i, before >> (4 * way) & 15u);
-#if AXIS == 2
-        if (counts[0] == 0u) continue;  // not clear: its word is a mask
-        uint levels = 0u;
-        for (int way = 0; way < WAYS; ++way) levels |= (counts[way] - 1u) << (3 * way);
-        ivec3 at = brick + ivec3(0, 0, medium * size_bricks.z);
-        uint other = imageLoad(target, at).r & (rises ? 0xfffu : 0xfff000u);
-        imageStore(target, at, uvec4(other | levels << (rises ? 12 : 0), ROOM_CLEAR, 0u, 0u));
-#else
-        // Along y: bit 4 b. Along x: bit 4 (a + 2 b).
-        uint mine = 0u;
-        uint kept = 0u;
-        for (int way = 0; way < WAYS; ++way) {
-            int shift = 4 * (AXIS == 1 ? int(rises) : int(rises) + 2 * way);
-            mine |= counts[way] << shift;
-            kept |= 15u << shift;
-        }
-        uvec2 old = imageLoad(target, brick).rg;
-        uint old_one = medium == 0 ? old.r : old.g;
-        if ((old_one & kept) == mine) continue;
-        uint new_one = (old_one & ~kept) | mine;
-        imageStore(target, brick, uvec4(medium == 0 ? uvec2(new_one, old.g) : uvec2(old.r, new_one), 0u, 0u));
-        int lines_y = size_bricks.x * size_bricks.z;
-#if AXIS == 1
-        marked[lines_y + brick.y + size_bricks.y * brick.z] = version;
-#else
-        marked[lines_y + size_bricks.y * size_bricks.z + brick.x + size_bricks.x * brick.y] = version;
-#endif
-#endif
+    int onward = rises ? -1 : 1;
+    int reach = room_length(top);
+    int ahead = rises ? n - 1 - first : first;  // bricks of the world
+    // For how many bricks to come each level is stopped by one that has been passed.
+    uvec2 stopped = medium == 1 && ahead < reach - 1 ? LENGTHS : uvec2(0u);
+    int between = abs(last - first);
+    uvec2 known = ~levels_from(top + 1);
+    int end = rises ? first + 1 : n - first;
+    for (int k = -min(ahead, reach - 1); k < min(between + reach, end); ++k) {
+        brick[AXIS] = first + onward * k;
+        int before = count_before(brick, medium, way);
+        uvec2 stops = levels_from(before);
+        stopped = (stopped - ones(stopped)) & ~stops | LENGTHS & stops;
+        // Behind the change, levels that this brick stops itself are as they were.
+        if (k > between) reach = min(reach, before == 0 ? 0 : room_length(before - 1));
+        if (k >= 0) set_count(brick, medium, way, rises, top + 1 - sum_of(ones(stopped & known)), top);
     }
 }
 
@@ -111,20 +98,27 @@ void main() {
     ivec2 at = ivec2(gl_GlobalInvocationID.xy);
 #if AXIS == 1
     ivec3 brick = ivec3(at.x, 0, at.y);
-    int line = at.x + size_bricks.x * at.y;
 #endif
 #if AXIS == 0
     ivec3 brick = ivec3(0, at.x, at.y);
-    int line = size_bricks.x * size_bricks.z + at.x + size_bricks.y * at.y;
 #endif
 #if AXIS == 2
     ivec3 brick = ivec3(at.x, at.y, 0);
-    int line = size_bricks.x * size_bricks.z + size_bricks.y * size_bricks.z + at.x + size_bricks.x * at.y;
 #endif
     if (any(greaterThanEqual(brick, size_bricks))) return;
-    if (marked[line] != version) return;
-    for (int medium = 0; medium < 2; ++medium) {
-        walk(brick, medium, false);
-        walk(brick, medium, true);
+    int line = room_line_at(AXIS, brick, size_bricks);
+    uint parts = room_lines[line];
+    if (parts == 0u) return;
+    room_lines[line] = 0u;
+    for (; parts != 0u; parts &= parts - 1u) {
+        int part = findLSB(parts);
+        int range = line + 1 + 3 * part;
+        int low = ROOM_LINE_END - int(room_lines[range]);
+        int high = int(room_lines[range + 1]) - 1;
+        int top = int(room_lines[range + 2]) - 1;
+        room_lines[range] = room_lines[range + 1] = room_lines[range + 2] = 0u;
+        int medium = part / room_line_ways(AXIS);
+        int way = part % room_line_ways(AXIS);
+        for (int i = 0; i < 2; ++i) walk(brick, medium, way, i == 1, i == 1 ? high : low, i == 1 ? low : high, top);
     }
 }

@@ -12,16 +12,22 @@ TARN_SHARED_BEGIN
 TARN_CONSTANT TARN_UINT ROOM_CLEAR = 0xffffffffu;
 TARN_CONSTANT TARN_UINT ROOM_LEVELS_END = 0x1000000u;
 
-// A room has the brick in its corner and is of the medium alone; beyond the world all is air. Sides in bricks: flat, as
-// ground and water are: primary rays over a lake take 7 steps, with cubes 11.
+// A room has the brick in its corner and is of the medium alone; beyond the world all is air. Sides in bricks: flat
+// first, as ground and water are, then upright, for the open sky. A longer one would save rays little (at most 32 across
+// in place of 128 and 32 up: 4.8 % more steps for primary rays in 512^3, 4 % less for diffuse ones), but a change renews
+// every room that it lies in.
 TARN_CONSTANT int ROOM_LEVELS = 8;
-TARN_FUNCTION int room_across(int level) { return 1 << level; }
+TARN_FUNCTION int room_across(int level) { return level < 5 ? 1 << level : 32; }
 TARN_FUNCTION int room_up(int level) { return ((1 << level) + 3) >> 2; }
 
 // The word of a brick whose voxels that are not the medium are `mask`; of a clear one before its rooms are known.
 TARN_FUNCTION TARN_UINT room_word_x(TARN_UINT mask_x, TARN_UINT mask_y) {
     return mask_y == ROOM_CLEAR && mask_x < ROOM_LEVELS_END ? mask_x | 0x80000000u : mask_x;
 }
+
+// Words of a line of bricks in what lib/room_lines.glsl keeps, by axis.
+TARN_FUNCTION int room_line_ways(int axis) { return axis == 1 ? 1 : axis == 0 ? 2 : 4; }
+TARN_FUNCTION int room_line_words(int axis) { return 1 + 2 * 3 * room_line_ways(axis); }
 
 TARN_SHARED_END
 #endif

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "shared/bindings.h"
+#include "shared/rooms.h"
 
 namespace tarn {
 
@@ -13,15 +14,15 @@ gl::Program rooms_program(const char* axis) {
         {.label = "brick rooms", .compute = "pass/brick_rooms.comp", .defines = {{"AXIS", axis}}});
 }
 
-// A value that no brick has: the first call looks at every line.
-void make_unknown(const gl::Texture& texture) {
-    constexpr std::array<std::uint8_t, 2> unknown{255, 255};
-    glClearTexImage(texture.name(), 0, GL_RG_INTEGER, GL_UNSIGNED_BYTE, unknown.data());
+void fill(const gl::Texture& texture, GLenum layout, std::array<std::uint8_t, 2> value) {
+    glClearTexImage(texture.name(), 0, layout, GL_UNSIGNED_BYTE, value.data());
 }
 
-std::size_t lines_of(glm::ivec3 size) {
-    return std::size_t{1} * size.x * size.z + std::size_t{1} * size.y * size.z +
-           std::size_t{1} * size.x * size.y;
+std::size_t line_bytes(glm::ivec3 size) {
+    const std::size_t words = std::size_t{1} * room_line_words(1) * size.x * size.z +
+                              std::size_t{1} * room_line_words(0) * size.y * size.z +
+                              std::size_t{1} * room_line_words(2) * size.x * size.y;
+    return words * sizeof(std::uint32_t);
 }
 
 }  // namespace
@@ -34,12 +35,14 @@ BricksPass::BricksPass(glm::ivec3 size_bricks)
     : occupancy_program_({.label = "brick occupancy", .compute = "pass/brick_occupancy.comp"}),
       rooms_program_{rooms_program("0"), rooms_program("1"), rooms_program("2")},
       occupancy_({.label = "brick occupancy", .format = GL_RG8UI, .size = size_bricks}),
-      rooms_up_({.label = "brick rooms along y", .format = GL_RG8UI, .size = size_bricks}),
-      rooms_side_({.label = "brick rooms along y and x", .format = GL_RG16UI, .size = size_bricks}),
+      rooms_up_({.label = "brick rooms along y", .format = GL_R8UI, .size = rooms_size(size_bricks)}),
+      rooms_side_(
+          {.label = "brick rooms along y and x", .format = GL_R16UI, .size = rooms_size(size_bricks)}),
       groups_("brick room groups", 3 * sizeof(glm::uvec3)),
-      lines_("marked lines of bricks", lines_of(size_bricks) * sizeof(std::uint32_t)) {
-    for (const gl::Texture* texture : {&occupancy_, &rooms_up_, &rooms_side_}) make_unknown(*texture);
-    lines_.clear();
+      lines_("lines of bricks", line_bytes(size_bricks)) {
+    // No brick is clear: what the first call finds is a change from that.
+    fill(occupancy_, GL_RG_INTEGER, {1, 1});
+    for (const gl::Texture* texture : {&rooms_up_, &rooms_side_}) fill(*texture, GL_RED_INTEGER, {0, 0});
 }
 
 void BricksPass::record(const Inputs& in, const Outputs& out, gl::Timers& timers) {
@@ -55,7 +58,6 @@ void BricksPass::record(const Inputs& in, const Outputs& out, gl::Timers& timers
     out.brick_rooms.bind_image(1, GL_WRITE_ONLY);
     occupancy_program_.set("size_bricks", size_bricks);
     occupancy_program_.set("line_groups", glm::uvec3((size_bricks + 7) / 8));
-    occupancy_program_.set("version", in.version);
     reader_.run(occupancy_program_, in.activity.changes());
     glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
                     GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
@@ -68,7 +70,6 @@ void BricksPass::record(const Inputs& in, const Outputs& out, gl::Timers& timers
                              Step{2, rooms_side_, out.brick_rooms}}) {
         const gl::Program& program = rooms_program_[step.axis];
         program.set("size_bricks", size_bricks);
-        program.set("version", in.version);
         step.source.bind(BINDING_FIRST_INPUT);
         step.target.bind_image(0, GL_READ_WRITE);
         program.use();

@@ -37,9 +37,9 @@ class BricksPass {
     ChangeReader reader_;
     gl::Program occupancy_program_;
     gl::Program rooms_program_[3];                   // by axis; run in the order y, x, z
-    gl::Texture occupancy_, rooms_up_, rooms_side_;  // RG8UI, RG8UI, RG16UI
+    gl::Texture occupancy_, rooms_up_, rooms_side_;  // RG8UI, R8UI, R16UI
     gl::Buffer groups_;  // of the rooms programs, written by the occupancy program
-    gl::Buffer lines_;   // of bricks, marked with the version at which they are to be looked at
+    gl::Buffer lines_;   // of bricks, what is to be looked at; glsl/lib/room_lines.glsl
 };
 
 // ceil(size / BRICK_SIDE)
