@@ -1,5 +1,5 @@
-// One direction of a separable 5-tap blur. Gaussian: over everything. Otherwise within one surface of one material, and
-// less the more frames a pixel has.
+// A blur against noise. FILTER_GAUSSIAN: one direction of a separable one of 5 taps, over everything. Otherwise one pass
+// of taps around the pixel, within one surface of one material; fewer and weaker the more frames a pixel has.
 #include "shared/frame.h"
 #include "lib/materials.glsl"
 #include "lib/math.glsl"
@@ -8,16 +8,36 @@
 layout(binding = 4) uniform sampler2D radiance;  // rgb; a: frames kept
 layout(binding = 5) uniform sampler2D surface;
 
-uniform ivec2 step_px;  // distance and direction of neighbouring taps
+uniform ivec2 step_px;  // distance of neighbouring taps; Gaussian: and direction
 
 layout(location = 0) out vec4 out_radiance;
 
+#ifdef FILTER_GAUSSIAN
 const float KERNEL[3] = float[3](6.0 / 16.0, 4.0 / 16.0, 1.0 / 16.0);  // binomial
+#else
+// Taps in three rings of four: sides, corners, sides two steps away. Their places along x and y, plus 2, four bits a tap.
+const uint PLACES_X[2] = uint[2](0x31132123u, 0x2024u);
+const uint PLACES_Y[2] = uint[2](0x11331232u, 0x0242u);
+const float RING_WEIGHT[3] = float[3](0.9, 0.7, 0.4);  // the pixel's own is 1
+// From so many frames on the rings around the first no longer pay.
+const float FRAMES_OF_CORNERS = 10.0;
+const float FRAMES_OF_FAR_SIDES = 5.0;
 
 // With fewer frames the brightness of a pixel behind water says nothing yet.
 const float FRAMES_OF_NOISE = 12.0;
 
+// To here all neighbours count in full; then less, for there is less noise to trade for sharpness.
+const float NOISY_FRAMES = 6.0;
+// Wider passes are for pixels that have next to no history.
 const float WIDE_FRAMES = 8.0;
+
+int taps_at(float frames) { return frames < FRAMES_OF_FAR_SIDES ? 12 : frames < FRAMES_OF_CORNERS ? 8 : 4; }
+
+ivec2 place_of(int tap) {
+    uint shift = 4u * (uint(tap) & 7u);
+    return ivec2((PLACES_X[tap >> 3] >> shift) & 15u, (PLACES_Y[tap >> 3] >> shift) & 15u) - 2;
+}
+#endif
 
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
@@ -31,34 +51,25 @@ void main() {
     out_radiance = vec4(sum, center.a);
 #else
     vec4 here = texelFetch(surface, at, 0);
-    if (here.w == SURFACE_CODE_SKY) {
-        out_radiance = center;
-        return;
-    }
     vec3 n = surface_normal(here.w);
-    // Where frames have been averaged there is less noise to trade for sharpness.
-    float strength = min(1.0, 6.0 / center.a);
-    // Wider passes are for pixels that have next to no history.
-    if (max(step_px.x, step_px.y) > 1) strength = max(0.0, 1.0 - center.a / WIDE_FRAMES);
-    if (strength == 0.0) {
-        out_radiance = center;
-        return;
-    }
-    bool clear = transmits(surface_material(here.w));
-    float center_luminance = luminance(center.rgb);
     float tolerance = plane_tolerance(here, frame.camera_position_vox.xyz);
-    vec3 sum = center.rgb * KERNEL[0];
-    float weight_sum = KERNEL[0];
-    for (int i = -2; i <= 2; ++i) {
-        ivec2 tap = at + i * step_px;
-        if (i == 0 || any(lessThan(tap, ivec2(0))) || any(greaterThan(tap, last))) continue;
-        if (!lies_on(here, texelFetch(surface, tap, 0), n, tolerance)) continue;
+    bool wide = step_px.x > 1;
+    float strength = wide ? max(0.0, 1.0 - center.a / WIDE_FRAMES) : min(1.0, NOISY_FRAMES / center.a);
+    // Behind a clear surface lies a picture of its own: keep its edges by brightness, once there is more to see than
+    // noise.
+    bool clear = transmits(surface_material(here.w)) && center.a > FRAMES_OF_NOISE;
+    float center_luminance = luminance(center.rgb);
+    float fall_off = clear ? 1.0 / (0.1 + 0.25 * center_luminance) : 0.0;
+    vec3 sum = center.rgb;
+    float weight_sum = 1.0;
+    int taps = here.w == SURFACE_CODE_SKY || strength == 0.0 ? 0 : taps_at(center.a);
+    for (int i = 0; i < taps; ++i) {
+        ivec2 tap = at + step_px * place_of(i);
+        // At the picture's edge a tap may meet a pixel twice: no harm.
+        tap = clamp(tap, ivec2(0), last);
         vec3 value = texelFetch(radiance, tap, 0).rgb;
-        float w = KERNEL[abs(i)] * strength;
-        // Behind a clear surface lies a picture of its own: keep its edges by brightness, once there is more to see
-        // than noise.
-        if (clear && center.a > FRAMES_OF_NOISE)
-            w *= exp(-abs(luminance(value) - center_luminance) / (0.1 + 0.25 * center_luminance));
+        float w = strength * RING_WEIGHT[i >> 2] * exp(-abs(luminance(value) - center_luminance) * fall_off);
+        if (!lies_on(here, texelFetch(surface, tap, 0), n, tolerance)) w = 0.0;
         sum += w * value;
         weight_sum += w;
     }

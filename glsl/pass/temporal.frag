@@ -51,14 +51,16 @@ const float FRAMES_KEPT_NEAR_CHANGE = 3.0;
 
 #ifndef HISTORY_BLEND
 // Frames that may be kept of what the previous frame showed at `ndc`: their bias by the share d of the light that the
-// change of the world took or gave outweighs their noise beyond 1 / d^2.
-float frames_kept_of_light(vec2 ndc) {
+// change of the world took or gave outweighs their noise beyond 1 / d^2. Without `asked` it means nothing.
+float frames_kept_of_light(vec2 ndc, bool asked) {
     ivec2 last = textureSize(retraced, 0) - 1;
     ivec2 last_traced = textureSize(traced_before, 0) - 1;
     ivec2 base = ivec2(floor((ndc * 0.5 + 0.5) * vec2(last_traced + 1) / float(RETRACE_STRIDE) - 0.5));
     float difference = 0.0;
     float sum = 1e-20;
-    for (int k = 0; k < 4; ++k) {
+    // Where no lane asks, llvmpipe pays for one round.
+    int rounds = asked ? 4 : 0;
+    for (int k = 0; k < rounds; ++k) {
         ivec2 cell = clamp(base + ivec2(k & 1, k >> 1), ivec2(0), last);
         ivec2 pixel = min(cell * int(RETRACE_STRIDE) + int(RETRACE_STRIDE) / 2, last_traced);
         float now = luminance(texelFetch(retraced, cell, 0).rgb);
@@ -198,6 +200,7 @@ void main() {
 
     vec4 history = vec4(0.0);
     float weight_sum = 0.0;
+    uint rejected = 0u;
 #ifdef HISTORY_MOMENTS
     vec3 moments = vec3(0.0);
 #endif
@@ -211,7 +214,8 @@ void main() {
         ivec2 base = ivec2(floor(texel));
         vec2 f = texel - vec2(base);
         float tolerance = plane_tolerance(here, frame.camera_position_vox.xyz);
-        for (int k = 0; k < 4; ++k) {
+        int taps = f == vec2(0.0) ? 1 : 4;
+        for (int k = 0; k < taps; ++k) {
             ivec2 tap = base + ivec2(k & 1, k >> 1);
             vec2 w2 = mix(1.0 - f, f, vec2(k & 1, k >> 1));
             float w = w2.x * w2.y;
@@ -219,7 +223,7 @@ void main() {
             if (!lies_on(here, texelFetch(previous_surface, tap, 0), n, tolerance)) continue;
             vec4 kept = texelFetch(previous_radiance, tap, 0);
             if (!is_finite(kept.rgb) || !is_finite(kept.a)) {
-                atomicAdd(rejected_samples, 1u);
+                ++rejected;
                 continue;
             }
             history += w * kept;
@@ -229,6 +233,7 @@ void main() {
             weight_sum += w;
         }
     }
+    for (bool once = rejected > 0u; once; once = false) atomicAdd(rejected_samples, rejected);
     float count = 0.0;
     if (weight_sum > 0.01) {
         history /= weight_sum;
@@ -239,8 +244,9 @@ void main() {
             count = min(count, SAMPLES_A_FRAME * frames_kept_of_image(here.xyz, float(textureSize(previous_radiance, 0).y)));
         count = min(count, frame.history.y - 1.0);
 #ifndef HISTORY_BLEND
-        for (bool once = is_retraced && !is_moving(here.w); once; once = false)
-            count = min(count, SAMPLES_A_FRAME * frames_kept_of_light(ndc));
+        bool asked = is_retraced && !is_moving(here.w);
+        float kept_of_light = frames_kept_of_light(ndc, asked);
+        if (asked) count = min(count, SAMPLES_A_FRAME * kept_of_light);
 #endif
     }
     float worth = 1.0;

@@ -174,15 +174,14 @@ const gl::Texture& Renderer::Parts::reproject_and_filter(const Simulation& simul
     }
     if (settings.filter == Filter::None) return *radiance;
     const bool gaussian = settings.filter == Filter::Gaussian;
-    for (int pass = 0; pass < settings.filter_passes; ++pass) {
-        for (int axis = 0; axis < 2; ++axis) {
-            const int distance = 1 << pass;
-            const glm::ivec2 step = axis == 0 ? glm::ivec2(distance, 0) : glm::ivec2(0, distance);
-            built(filter[gaussian], gaussian)
-                .record({.surfaces = surfaces(current, *radiance), .step_px = step},
-                        {.target = targets->filter_target[axis]}, timers);
-            radiance = &targets->filtered[axis];
-        }
+    const int axes = gaussian ? 2 : 1;
+    for (int i = 0; i < axes * settings.filter_passes; ++i) {
+        const int distance = 1 << (i / axes);
+        const glm::ivec2 step(gaussian && i % 2 == 1 ? 0 : distance, gaussian && i % 2 == 0 ? 0 : distance);
+        built(filter[gaussian], gaussian)
+            .record({.surfaces = surfaces(current, *radiance), .step_px = step},
+                    {.target = targets->filter_target[i % 2]}, timers);
+        radiance = &targets->filtered[i % 2];
     }
     return *radiance;
 }

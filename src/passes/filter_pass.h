@@ -1,4 +1,4 @@
-// One direction of a separable blur against noise. glsl/pass/filter.frag.
+// A blur against noise, or one direction of it. glsl/pass/filter.frag.
 #pragma once
 #include <glm/glm.hpp>
 
@@ -13,13 +13,13 @@ class FilterPass {
   public:
     struct Inputs {
         SurfaceBuffers surfaces;
-        glm::ivec2 step_px;  // between taps: (n, 0) or (0, n)
+        glm::ivec2 step_px;  // between taps: (n, n); gaussian: (n, 0) or (0, n)
     };
     struct Outputs {
         const gl::Framebuffer& target;
     };
 
-    // gaussian: over everything; otherwise within one surface.
+    // gaussian: over everything, separable; otherwise within one surface.
     explicit FilterPass(bool gaussian);
     void record(const Inputs& inputs, const Outputs& outputs, gl::Timers& timers) const;
     gl::Program& program() { return program_; }
