@@ -8,6 +8,7 @@
 
 #include "app/legend.h"
 #include "app/overlay.h"
+#include "app/undo.h"
 #include "core/error.h"
 #include "core/front.h"
 
@@ -31,6 +32,8 @@ Actions actions_of(const Input& input) {
     actions.undo = input.was_pressed(Key::Undo);
     actions.redo = input.was_pressed(Key::Redo);
     actions.screenshot = input.was_pressed(Key::Screenshot);
+    actions.record = input.was_pressed(Key::Record);
+    actions.home = input.was_pressed(Key::Home);
     return actions;
 }
 
@@ -59,6 +62,16 @@ std::vector<double> front_times() {
     std::vector<double> times;
     for (const FrontPoint& point : front()) times.push_back(point.time);
     return times;
+}
+
+// Of a frame, the passes whose work the settings of the trade decide.
+double picture_ms(const gl::Timers& timers) {
+    double sum_ms = 0;
+    for (const gl::PassTime& pass : timers.passes()) {
+        for (const char* name : {"trace", "temporal", "filter", "display", "emitters"})
+            if (pass.name == name) sum_ms += pass.mean_ms;
+    }
+    return sum_ms;
 }
 
 double tick_ms_total(const gl::Timers& timers) {
@@ -128,7 +141,10 @@ const gl::Texture& App::frame(const Input& input) {
     const bool interactive = options_.interactive && input.interactive;
     Actions actions;
     if (interactive) {
-        if (now_s() >= next_poll_s_) poll_shaders();
+        if (now_s() >= next_poll_s_) {
+            poll_shaders();
+            watch_eye();
+        }
         change_settings(input, actions);
         run_actions(actions);
     }
@@ -143,7 +159,7 @@ const gl::Texture& App::frame(const Input& input) {
     ++frames_;
     if (actions.screenshot) write_screenshot();
     if (interactive && settings_.overlay && now_s() >= next_error_s_ && frames_ >= next_error_frame_) {
-        renderer_->measure_error();
+        renderer_->measure_error(*simulation_);
         next_error_s_ = now_s() + error_interval_s;
         next_error_frame_ = frames_ + error_interval_frames;
     }
@@ -191,7 +207,7 @@ void App::change_settings(const Input& input, Actions& actions) {
     if (input.was_pressed(Key::View)) settings_.view = neighbour_of(settings_.view, input.is_down(Key::Fast));
     if (input.was_pressed(Key::Overlay)) settings_.overlay = !settings_.overlay;
     set_captured(look_toggled_ || input.is_down(Key::MouseLookHold));
-    fly(settings_, input, captured_);
+    fly_in_world(input);
     tools_.choose(input);
     govern(input);
 
@@ -216,11 +232,46 @@ void App::govern(const Input& input) {
     if (renderer_->is_refining()) return;
     const std::size_t point = front_point(settings_.tradeoff);
     const double target_ms = settings_.governor ? settings_.frame_time_target_ms : 0;
-    const std::size_t next = governor_.frame(input.dt_s * 1000, point, target_ms);
+    const double fixed_ms = std::max(0.0, frame_ms_ - picture_ms(timers_));
+    const std::size_t next = governor_.frame(input.dt_s * 1000, point, target_ms, fixed_ms);
     if (settings_.governor && next != point) apply_front_point(settings_, next);
 }
 
+// The ground stops the eye, unless it is in it already.
+void App::fly_in_world(const Input& input) {
+    const glm::vec3 from_vox = settings_.camera_position_vox;
+    fly(settings_, input, captured_);
+    if (settings_.fly_through_ground || settings_.camera_position_vox == from_vox) return;
+    Settings probe = settings_;
+    settings_.camera_position_vox =
+        slide(from_vox, settings_.camera_position_vox, [&](glm::vec3 at_vox, glm::vec3 dir) {
+            probe.camera_position_vox = at_vox;
+            const Pick found = renderer_->pick_along(*simulation_, probe, dir, true);
+            return found.hit ? std::optional(found.cell) : std::nullopt;
+        });
+}
+
+void App::watch_eye() {
+    const glm::ivec3 cell(glm::floor(glm::clamp(settings_.camera_position_vox, -1.f, 2048.f)));
+    const glm::ivec3 size = simulation_->size_vox();
+    eye_hint_.clear();
+    if (glm::any(glm::lessThan(cell, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(cell, size))) return;
+    const std::uint8_t byte = simulation_->read_cell(cell);
+    if (byte == MATERIAL_AIR || byte == MATERIAL_GLASS || is_water(byte)) return;
+    eye_hint_ = fmt::format("The eye is inside {}: fly on, or press Home for the scene's own view.",
+                            material_name(static_cast<std::uint8_t>(material_of(byte))));
+}
+
+void App::go_home() {
+    for (const SettingInfo& info : setting_infos())
+        if (std::string_view(info.name).starts_with("camera_"))
+            info.set(settings_, info.get(scene_.settings));
+    renderer_->reset_history();
+    next_poll_s_ = 0;
+}
+
 void App::run_actions(const Actions& actions) {
+    if (actions.home) go_home();
     if (actions.faster) clock_.faster();
     if (actions.slower) clock_.slower();
     if (actions.toggle_pause) clock_.toggle_paused();
@@ -234,7 +285,10 @@ void App::run_actions(const Actions& actions) {
     if (actions.record) start_or_stop_recording();
     if (!actions.undo && !actions.redo) return;
     tools_.end_stroke();
-    if (const auto changes = actions.undo ? history_.undo() : history_.redo()) simulation_->write(*changes);
+    const bool done =
+        actions.undo ? undo_stroke(*simulation_, history_) : redo_stroke(*simulation_, history_);
+    if (done)
+        frame_edits_.push_back({.kind = actions.undo ? RecordedEdit::Kind::Undo : RecordedEdit::Kind::Redo});
 }
 
 Pick App::pick(glm::ivec2 size_px, glm::vec2 at_px, bool through_water) {
@@ -253,8 +307,10 @@ void App::edit(const Input& input) {
     const Tools::Stroke stroke =
         tools_.use(input, picked, {view.eye_vox(), view.dir_through(at_px)}, simulation_->tick());
     if (stroke.begins) history_.begin_stroke();
-    for (const Edit& e : stroke.edits) simulation_->apply(e, history_);
-    frame_edits_ = stroke.edits;
+    for (const Edit& e : stroke.edits) {
+        simulation_->apply(e, history_);
+        frame_edits_.push_back({.edit = e, .begins = stroke.begins && &e == &stroke.edits.front()});
+    }
     if (tools_.aim()) {
         const Brush& brush = tools_.brush;
         draw_outline(view, brush, *tools_.aim(), tools_.removing(), outline_color(brush));
@@ -309,6 +365,8 @@ void App::draw_overlays(const Input& input) {
     if (settings_.view != ViewKind::Picture) draw_legend(settings_.view);
     if (!shader_error_.empty())
         draw_message(shader_error_, true);
+    else if (!eye_hint_.empty())
+        draw_message(eye_hint_, false);
     else if (now_s() < message_until_s_)
         draw_message(message_, false);
 }

@@ -56,6 +56,9 @@ class App {
     void poll_shaders();
     void change_settings(const Input& input, Actions& actions);
     void govern(const Input& input);
+    void fly_in_world(const Input& input);
+    void watch_eye();  // says so where it is in a solid
+    void go_home();
     void run_actions(const Actions& actions);
     Pick pick(glm::ivec2 size_px, glm::vec2 at_px, bool through_water);
     void edit(const Input& input);
@@ -84,12 +87,12 @@ class App {
     Panels panels_;
     Governor governor_;
     FlightRecorder recorder_;
-    std::vector<Edit> frame_edits_;     // of this frame
-    std::vector<SceneSummary> scenes_;  // read when first shown
+    std::vector<RecordedEdit> frame_edits_;  // of this frame, undo and redo too
+    std::vector<SceneSummary> scenes_;       // read when first shown
 
     bool look_toggled_ = false;
     bool captured_ = false;
-    std::string message_, shader_error_;
+    std::string message_, shader_error_, eye_hint_;
     double message_until_s_ = 0;
     double next_poll_s_ = 0;
     double next_error_s_ = 0;

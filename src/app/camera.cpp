@@ -12,8 +12,25 @@ constexpr float fast_factor = 4;
 // Segments are cut at this distance before the eye; small against a voxel, far above rounding.
 constexpr float near_vox = 1e-3f;
 
+constexpr float off_solids_vox = 0.25f;
+
 float direction(bool positive, bool negative) {
     return (positive ? 1.f : 0.f) - (negative ? 1.f : 0.f);
+}
+
+// The axis of the face by which a ray enters a cell that its start is outside of.
+int entry_axis(glm::ivec3 cell, glm::vec3 from_vox, glm::vec3 dir) {
+    int axis = 0;
+    float latest = -1;
+    for (int i = 0; i < 3; ++i) {
+        const float face = static_cast<float>(dir[i] > 0 ? cell[i] : cell[i] + 1);
+        const float t = dir[i] == 0 ? -1 : (face - from_vox[i]) / dir[i];
+        if (t > latest) {
+            latest = t;
+            axis = i;
+        }
+    }
+    return axis;
 }
 
 }  // namespace
@@ -76,6 +93,28 @@ void fly(Settings& settings, const Input& input, bool turn) {
     settings.camera_position_vox = glm::clamp(
         settings.camera_position_vox + heading * speed_vox_s * static_cast<float>(dt_s),
         glm::vec3(static_cast<float>(position_info.min)), glm::vec3(static_cast<float>(position_info.max)));
+}
+
+glm::vec3 slide(glm::vec3 from_vox, glm::vec3 to_vox, const MeetsSolid& meets) {
+    glm::vec3 at = from_vox;
+    glm::vec3 move = to_vox - from_vox;
+    // Each face takes one direction away: in a corner three do.
+    for (int i = 0; i < 3; ++i) {
+        const float length = glm::length(move);
+        if (!(length > 0)) return at;
+        const auto face = meets(at, move / length);
+        if (!face) return at + move;
+        if (*face == glm::ivec3(glm::floor(at))) return to_vox;
+        const int axis = entry_axis(*face, at, move);
+        const int plane = (*face)[axis] + (move[axis] > 0 ? 0 : 1);
+        const float room = std::abs(static_cast<float>(plane) - at[axis]) - off_solids_vox;
+        const float share = std::max(room, 0.f) / std::max(std::abs(move[axis]), 1e-20f);
+        if (share >= 1) return at + move;
+        at += share * move;
+        move *= 1 - share;
+        move[axis] = 0;
+    }
+    return at;
 }
 
 }  // namespace tarn

@@ -2,6 +2,7 @@
 // Knows no GL.
 #pragma once
 #include <array>
+#include <functional>
 #include <glm/glm.hpp>
 #include <optional>
 
@@ -38,5 +39,12 @@ class View {
 // Moves and turns the camera in `settings` by one frame of input; `turn`: the mouse turns it. Any dt is safe:
 // a frame moves no further than a quarter of a second does.
 void fly(Settings& settings, const Input& input, bool turn);
+
+// The first solid cell that the ray from a point along a unit direction meets, be it that of the point.
+using MeetsSolid = std::function<std::optional<glm::ivec3>(glm::vec3 from_vox, glm::vec3 dir)>;
+
+// Where an eye ends that wants to go from one point to another but may not pass solids: it slides along them,
+// a quarter of a voxel off. From within a solid it goes freely.
+glm::vec3 slide(glm::vec3 from_vox, glm::vec3 to_vox, const MeetsSolid& meets);
 
 }  // namespace tarn

@@ -12,7 +12,7 @@ void FlightRecorder::start(const std::string& scene, std::uint64_t tick) {
     recording_->description = fmt::format("Recorded in {} from tick {}", scene, tick);
 }
 
-void FlightRecorder::add_frame(const Settings& settings, const std::vector<Edit>& edits, int ticks) {
+void FlightRecorder::add_frame(const Settings& settings, const std::vector<RecordedEdit>& edits, int ticks) {
     if (!recording_ || recording_->frames() >= recording_frames_max) return;
     const int frame = recording_->frames();
     recording_->ticks.push_back(ticks);
@@ -21,12 +21,11 @@ void FlightRecorder::add_frame(const Settings& settings, const std::vector<Edit>
                                 .yaw_deg = settings.camera_yaw_deg,
                                 .pitch_deg = settings.camera_pitch_deg,
                                 .fov_deg = settings.camera_fov_deg});
-    for (Edit edit : edits) {
-        RecordedEdit& recorded = recording_->edits.emplace_back();
+    for (const RecordedEdit& edit : edits) {
+        RecordedEdit& recorded = recording_->edits.emplace_back(edit);
         recorded.frame = frame;
-        recorded.center_vox = glm::vec3(std::exchange(edit.center_vox, glm::ivec3(0)));
-        edit.tick = 0;
-        recorded.edit = edit;
+        recorded.center_vox = glm::vec3(std::exchange(recorded.edit.center_vox, glm::ivec3(0)));
+        recorded.edit.tick = 0;
     }
 }
 

@@ -16,7 +16,8 @@ class FlightRecorder {
     void start(const std::string& scene, std::uint64_t tick);
     // A frame as it was made: its camera, the edits before its ticks, how many of those. Nothing while off,
     // or once recording_frames_max frames are kept.
-    void add_frame(const Settings& settings, const std::vector<Edit>& edits, int ticks);
+    // Centres are those of the `edit`s.
+    void add_frame(const Settings& settings, const std::vector<RecordedEdit>& edits, int ticks);
     // What was recorded; nothing where no frame was.
     std::optional<Recording> stop();
 

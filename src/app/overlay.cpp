@@ -50,7 +50,7 @@ void draw_overlay(const OverlayInputs& in) {
         line("active bricks {}", in.active_bricks);
         line("sand {}", in.census.voxels[MATERIAL_SAND]);
         if (in.error)
-            line("samples {}, noise (relMSE) about {:.2g}", in.samples, *in.error);
+            line("samples {}, error (relMSE) about {:.2g}", in.samples, *in.error);
         else
             line("samples {}", in.samples);
         if (in.rejected_samples > 0) line("rejected samples {}", in.rejected_samples);

@@ -12,6 +12,11 @@ namespace tarn {
 
 namespace {
 
+// Of the window's width, what Settings take of a small one: the rest shows what a change does, and tooltips.
+constexpr float settings_share = 0.55f;
+// In font sizes: a window with room for Help beside Settings.
+constexpr float both_open_font = 70;
+
 struct HelpLine {
     const char* keys;  // null: a heading
     const char* text;
@@ -24,6 +29,8 @@ constexpr HelpLine help_lines[] = {
     {"Shift", "four times as fast"},
     {"Tab or M", "look with the mouse, on and off; the brush then aims at the cross"},
     {"F or Alt", "look with the mouse while held"},
+    {"Home or G", "back to where the scene's camera stands"},
+    {"", "The ground stops you, unless fly_through_ground (settings, camera) is on."},
     {nullptr, "Build"},
     {"left button", "place; hold to pour water and sand, drag to draw in the plane where you began"},
     {"right button", "remove; hold to dig on"},
@@ -49,7 +56,8 @@ constexpr HelpLine help_lines[] = {
     {"V, Shift+V",
      "views in place of the picture: albedo, normal, depth, material, bounces, steps, history, variance; the "
      "legend says what their colours mean"},
-    {"F12", "picture: tarn-0001.png and its settings as .json, in the current folder"},
+    {"F12", "picture: tarn-0001.png and its settings as .json, in the folder that Tarn was started in"},
+    {"F11", "record flight and strokes, and stop: tarn-0001.flight.json, in that folder too"},
     {"Esc", "give the mouse back; close the panels"},
     {"Ctrl+Q", "quit"},
 };
@@ -89,7 +97,11 @@ void draw_brush(const Panels::Inputs& inputs, Actions& actions) {
     ImGui::Checkbox("overwrite", &brush.overwrite);
     tooltip("On: placing replaces everything. Off: it fills air and water only (X).");
     ImGui::SameLine();
-    actions.undo |= button("Undo", "Take back the last stroke (Z).", inputs.can_undo);
+    actions.undo |=
+        button("Undo",
+               "Take back the last stroke (Z): its voxels become what they were; of water and sand that "
+               "flowed on, as much as was poured is taken from the nearest within 64 voxels (128 down).",
+               inputs.can_undo);
     ImGui::SameLine();
     actions.redo |= button("Redo", "Repeat the stroke taken back (Y).", inputs.can_redo);
 }
@@ -106,12 +118,16 @@ void draw_world(const Panels::Inputs& inputs, Actions& actions) {
     }
     tooltip("Loads a built-in scene with its camera, water, sun and sky; what was built here is lost.");
     ImGui::SameLine();
-    actions.screenshot |= button("Picture", "Write tarn-0001.png and its settings beside it (F12).");
+    actions.screenshot |=
+        button("Picture",
+               "Write tarn-0001.png and its settings beside it, in the folder that Tarn was started "
+               "in (F12).");
     ImGui::SameLine();
-    actions.record |= button(inputs.recording ? "Stop" : "Record",
-                             "Record the flight and the strokes of the brush, not what is undone, to "
-                             "tarn-0001.flight.json, until pressed again or the world is loaded anew; "
-                             "`tarn render --path` plays it.");
+    actions.record |=
+        button(inputs.recording ? "Stop" : "Record",
+               "Record the flight, the strokes of the brush, undo and redo, to "
+               "tarn-0001.flight.json in the folder that Tarn was started in, until pressed again (F11) or "
+               "the world is loaded anew; `tarn render --path` plays it.");
 }
 
 // Where the slider stands, and what the measured front says of it.
@@ -133,6 +149,10 @@ void draw_front_point(const Panels::Inputs& inputs) {
 }  // namespace
 
 void Panels::draw(const Inputs& inputs, Actions& actions) {
+    // A small window has room for one.
+    const bool crowded = ImGui::GetIO().DisplaySize.x < ImGui::GetFontSize() * both_open_font;
+    if (crowded && help_open && settings_open) (help_was_open_ ? help_open : settings_open) = false;
+    help_was_open_ = help_open;
     if (help_open) draw_help();
     if (settings_open) draw_settings(inputs, actions);
 }
@@ -140,8 +160,8 @@ void Panels::draw(const Inputs& inputs, Actions& actions) {
 void Panels::draw_help() {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float font = ImGui::GetFontSize();
-    ImGui::SetNextWindowPos({display.x * 0.02f, display.y * 0.05f}, ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSize({std::min(font * 36, display.x * 0.9f), std::min(font * 38, display.y * 0.9f)},
+    ImGui::SetNextWindowPos({display.x * 0.02f, display.y * 0.03f}, ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSize({std::min(font * 36, display.x * 0.9f), std::min(font * 38, display.y * 0.94f)},
                              ImGuiCond_FirstUseEver);
     if (ImGui::Begin("Help", &help_open)) {
         help_shown_ = true;
@@ -166,9 +186,10 @@ void Panels::draw_help() {
 void Panels::draw_settings(const Inputs& inputs, Actions& actions) {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float font = ImGui::GetFontSize();
-    ImGui::SetNextWindowPos({display.x * 0.98f, display.y * 0.05f}, ImGuiCond_FirstUseEver, {1, 0});
-    ImGui::SetNextWindowSize({std::min(font * 30, display.x * 0.8f), std::min(font * 45, display.y * 0.9f)},
-                             ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowPos({display.x * 0.99f, display.y * 0.03f}, ImGuiCond_FirstUseEver, {1, 0});
+    ImGui::SetNextWindowSize(
+        {std::min(font * 30, display.x * settings_share), std::min(font * 45, display.y * 0.94f)},
+        ImGuiCond_FirstUseEver);
     if (ImGui::Begin("Settings", &settings_open)) {
         settings_shown_ = true;
         draw_time(inputs, actions);
@@ -178,6 +199,8 @@ void Panels::draw_settings(const Inputs& inputs, Actions& actions) {
         draw_world(inputs, actions);
         if (button("Reset all", "Every setting below as the scene and the program give it, the camera too."))
             inputs.settings = inputs.defaults;
+        ImGui::SameLine();
+        actions.home |= button("Camera home", "The camera back to where the scene has it (Home).");
         const std::span<const SettingInfo> infos = setting_infos();
         for (auto info = infos.begin(); info != infos.end();) {
             const SettingGroup group = info->group;

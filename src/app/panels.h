@@ -16,6 +16,7 @@ struct Actions {
     bool toggle_pause = false, step = false, faster = false, slower = false, reload = false;
     bool undo = false, redo = false, screenshot = false;
     bool record = false;                    // starts or stops
+    bool home = false;                      // the camera where the scene begins
     std::optional<std::string> load_scene;  // a built-in name
 };
 
@@ -44,6 +45,7 @@ class Panels {
     void draw_settings(const Inputs& inputs, Actions& actions);
 
     bool help_shown_ = false, settings_shown_ = false;
+    bool help_was_open_ = false;
 };
 
 }  // namespace tarn

@@ -256,6 +256,7 @@ void Renderer::compile_in(const TraceFeatures& always) {
 
 void Renderer::reset_history() {
     parts_->has_history = false;
+    parts_->error.forget();
 }
 
 void Renderer::set_frame_index(std::uint64_t index) {
@@ -264,6 +265,11 @@ void Renderer::set_frame_index(std::uint64_t index) {
 
 Pick Renderer::pick(const Simulation& simulation, const Settings& settings, glm::ivec2 size_px,
                     glm::vec2 at_px, bool through_water) {
+    return pick_along(simulation, settings, View(settings, size_px).dir_through(at_px), through_water);
+}
+
+Pick Renderer::pick_along(const Simulation& simulation, const Settings& settings, glm::vec3 dir,
+                          bool through_water) {
     Parts& p = *parts_;
     const FrameBlock block = make_frame_block({.settings = settings,
                                                .world_size_vox = simulation.size_vox(),
@@ -271,14 +277,12 @@ Pick Renderer::pick(const Simulation& simulation, const Settings& settings, glm:
                                                .seed = p.seed,
                                                .frame_index = 0,
                                                .frames_kept = 0,
-                                               .traced_px = size_px,
-                                               .shown_px = size_px});
+                                               .traced_px = glm::ivec2(1),
+                                               .shown_px = glm::ivec2(1)});
     p.frame_block.upload(std::span(&block, 1));
     p.frame_block.bind_uniform(BINDING_FRAME);
-    const PickPass::Result result =
-        p.built(p.pick[through_water], through_water)
-            .record({.cells = simulation.cells(), .dir = View(settings, size_px).dir_through(at_px)},
-                    p.timers);
+    const PickPass::Result result = p.built(p.pick[through_water], through_water)
+                                        .record({.cells = simulation.cells(), .dir = dir}, p.timers);
     return {.hit = result.cell.w != 0,
             .cell = glm::ivec3(result.cell),
             .normal = glm::ivec3(result.normal),
@@ -316,35 +320,6 @@ ImageRgb32f Renderer::read_radiance() const {
     for (int y = size.y - 1; y >= 0; --y)
         image.pixels.insert(image.pixels.end(), pixels.begin() + y * row, pixels.begin() + (y + 1) * row);
     return image;
-}
-
-void Renderer::keep_variance(bool on) {
-    parts_->views.keep_variance(on);
-    if (!on) parts_->error.forget();
-}
-
-void Renderer::measure_error() {
-    Parts& p = *parts_;
-    CHECK(p.targets && p.shown != nullptr);
-    const bool exact = p.settings.history == History::Exact;
-    if (!exact && !p.views.keeps_moments()) {
-        p.error.forget();
-        return;
-    }
-    p.frame_block.upload(std::span(&p.block, 1));
-    p.frame_block.bind_uniform(BINDING_FRAME);
-    p.material_block.bind_uniform(BINDING_MATERIALS);
-    p.error.measure(
-        p.targets->shown_px,
-        [&](const gl::Framebuffer& to) { p.views.show_variance(*p.targets, p.current, to, p.timers); },
-        [&](const gl::Framebuffer& to) {
-            p.built(p.display[1][0], true, false).record({.radiance = *p.shown}, {.picture = to}, p.timers);
-        },
-        p.timers);
-}
-
-std::optional<double> Renderer::estimated_error(bool wait) const {
-    return parts_->error.last(wait);
 }
 
 std::uint64_t Renderer::samples() const {

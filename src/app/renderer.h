@@ -56,6 +56,9 @@ class Renderer {
     // `through_water`: water is passed as if it were air, also by an eye within it.
     Pick pick(const Simulation& simulation, const Settings& settings, glm::ivec2 size_px, glm::vec2 at_px,
               bool through_water);
+    // Likewise along a unit direction from the eye.
+    Pick pick_along(const Simulation& simulation, const Settings& settings, glm::vec3 dir,
+                    bool through_water);
 
     // Of the last render(); both wait for the GPU.
     ImageRgba8 read_picture() const;
@@ -69,11 +72,10 @@ class Renderer {
     std::uint64_t rejected_samples() const;  // not finite, since the start
     // Keeps from the next frame on what an estimate needs.
     void keep_variance(bool on);
-    // Measures the error of the frame last rendered; the answer comes frames later.
-    void measure_error();
-    // The estimated relMSE of the luminance: the noise that the spread of the frames shows, before the
-    // filter, and no bias. Nothing before the first answer or without a history. wait: for the answer under
-    // way.
+    // Measures the error of the picture last rendered, of this world; the answer comes frames later.
+    void measure_error(const Simulation& simulation);
+    // The estimated relMSE of the luminance (app/error_estimate.h). Nothing before the first answer. wait:
+    // for the answer under way.
     std::optional<double> estimated_error(bool wait) const;
     double compile_ms() const;  // spent building programs so far
 

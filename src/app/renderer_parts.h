@@ -1,5 +1,5 @@
 // What the renderer is made of, for its own source files: renderer.cpp (the pass order), refinement.cpp (at
-// rest).
+// rest), picture_trial.cpp (its error).
 #pragma once
 #include <deque>
 #include <optional>
@@ -32,6 +32,15 @@ struct Refinement {
     int current = 0;            // of the targets' sets
     int band = 0;               // of the picture, that the next frame traces
     std::uint32_t samples = 0;  // in the mean, per pixel
+};
+
+// How the shown picture is tried by samples of exact mode.
+struct PictureTrial {
+    Settings settings;  // exact
+    FrameBlock block;
+    std::uint32_t index = 0;  // of the next sample
+    Settings of;              // of the picture tried last
+    bool refined = false;     // that was
 };
 
 struct Renderer::Parts {
@@ -76,6 +85,7 @@ struct Renderer::Parts {
     std::uint64_t frames_kept = 0;
     const gl::Texture* shown = nullptr;  // radiance of the last frame that the preset made
     Refinement refinement;
+    PictureTrial trial;
 
     Parts(const Scene& scene, gl::Timers& timers_, TracePrograms* programs)
         : timers(timers_),
@@ -117,6 +127,10 @@ struct Renderer::Parts {
     // Whether this frame may add to the exact mean in place of the preset's; counts frames at rest.
     bool is_at_rest(const Simulation& simulation, const Settings& now, glm::ivec2 size_px);
     void refine(const Simulation& simulation, const Settings& now);
+
+    const TracePass* trial_program(const Simulation& simulation);
+    void draw_trial_sample(const Simulation& simulation, const TracePass& pass, const gl::Framebuffer& target,
+                           int stride);
 };
 
 bool same_eye(const Settings& a, const Settings& b);

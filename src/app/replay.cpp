@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/camera.h"
+#include "app/undo.h"
 
 namespace tarn {
 
@@ -28,25 +29,32 @@ void place_camera(const Recording& recording, int frame, const Settings& start, 
     settings.camera_fov_deg = key.fov_deg > 0 ? key.fov_deg : start.camera_fov_deg;
 }
 
-std::vector<Edit> edits_of(const Recording& recording, int frame, const Settings& start, std::uint64_t tick) {
-    std::vector<Edit> edits;
+std::vector<RecordedEdit> edits_of(const Recording& recording, int frame, const Settings& start,
+                                   std::uint64_t tick) {
+    std::vector<RecordedEdit> edits;
     for (const RecordedEdit& recorded : recording.edits) {
         if (recorded.frame != frame) continue;
-        Edit edit = recorded.edit;
+        RecordedEdit& made = edits.emplace_back(recorded);
         const glm::vec3 center =
             recording.relative ? world_from_start(start, recorded.center_vox) : recorded.center_vox;
-        edit.center_vox = glm::ivec3(glm::floor(center));
-        edit.tick = tick;
-        edits.push_back(edit);
+        made.edit.center_vox = glm::ivec3(glm::floor(center));
+        made.edit.tick = tick;
     }
     return edits;
 }
 
 void play_world(const Recording& recording, int frame, const Settings& start, Simulation& simulation,
-                const Settings& settings) {
-    EditHistory ignored;
-    for (const Edit& edit : edits_of(recording, frame, start, simulation.tick()))
-        simulation.apply(edit, ignored);
+                const Settings& settings, EditHistory& history) {
+    for (const RecordedEdit& made : edits_of(recording, frame, start, simulation.tick())) {
+        if (made.kind == RecordedEdit::Kind::Undo) {
+            undo_stroke(simulation, history);
+        } else if (made.kind == RecordedEdit::Kind::Redo) {
+            redo_stroke(simulation, history);
+        } else {
+            if (made.begins) history.begin_stroke();
+            simulation.apply(made.edit, history);
+        }
+    }
     simulation.step(recording.ticks[static_cast<std::size_t>(frame)], settings);
 }
 

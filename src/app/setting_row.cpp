@@ -11,6 +11,9 @@ namespace tarn {
 
 namespace {
 
+// Narrower than so many font sizes, lines of a tooltip are too short to read.
+constexpr float tooltip_min_font = 10;
+
 // Ranges this wide get a logarithmic slider.
 bool is_wide(const SettingInfo& info) {
     if (info.min < 0) return false;
@@ -113,10 +116,23 @@ bool draw_widget(const SettingInfo& info, const char* label, glm::dvec3& value) 
 
 }  // namespace
 
+// Beside the window that the control is in, so that it covers no other; at the mouse where there is no room.
 void tooltip(const std::string& text) {
     if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+    const float font = ImGui::GetFontSize();
+    const float left = ImGui::GetWindowPos().x;
+    const float right = left + ImGui::GetWindowSize().x;
+    const float room_right = ImGui::GetIO().DisplaySize.x - right;
+    const float room = std::max(left, room_right) - 2 * font;
+    const bool beside = room >= tooltip_min_font * font;
+    if (beside) {
+        const ImVec2 mouse = ImGui::GetMousePos();
+        const bool to_left = left > room_right;
+        ImGui::SetNextWindowPos({to_left ? left - font / 2 : right + font / 2, mouse.y}, ImGuiCond_Always,
+                                {to_left ? 1.f : 0.f, mouse.y / std::max(ImGui::GetIO().DisplaySize.y, 1.f)});
+    }
     ImGui::BeginTooltip();
-    ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24);
+    ImGui::PushTextWrapPos(beside ? std::min(font * 24, room) : font * 24);
     ImGui::TextUnformatted(text.c_str());
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
@@ -142,7 +158,7 @@ void setting_row(const SettingInfo& info, Settings& settings, const Settings& de
     std::string label = info.name;
     std::replace(label.begin(), label.end(), '_', ' ');
     glm::dvec3 value = info.get(settings);
-    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 13);
+    ImGui::SetNextItemWidth(std::min(ImGui::GetFontSize() * 13, ImGui::GetContentRegionAvail().x * 0.5f));
     const std::string idle = idle_reason(info, settings);
     ImGui::PushStyleVar(ImGuiStyleVar_Alpha, ImGui::GetStyle().Alpha * (idle.empty() ? 1.f : 0.45f));
     const bool changed = draw_widget(info, label.c_str(), value);

@@ -243,6 +243,10 @@ std::uint8_t Simulation::read_cell(glm::ivec3 cell) const {
     return parts_->read_region({cell, cell + 1})[0];
 }
 
+std::vector<std::uint8_t> Simulation::read_box(const Box& box) const {
+    return parts_->read_region(box);
+}
+
 Cells Simulation::read_cells() const {
     Cells cells(size_vox());
     parts_->cells.download(std::span<std::uint8_t>(cells.bytes()), byte_layout, byte_type);

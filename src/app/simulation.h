@@ -40,8 +40,9 @@ class Simulation {
     // Replaces the whole world's cells (size unchanged); the tick stays.
     void write_cells(const Cells& cells);
 
-    // A cell's byte or a whole copy; both wait for the GPU.
+    // A cell's byte, a box's, x fastest, or a whole copy; all wait for the GPU.
     std::uint8_t read_cell(glm::ivec3 cell) const;
+    std::vector<std::uint8_t> read_box(const Box& box) const;
     Cells read_cells() const;
     FlowTotals flow_totals() const;
     const EditTotals& edit_totals() const;

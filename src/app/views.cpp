@@ -44,45 +44,51 @@ const gl::Texture* Views::previous_moments(int current) const {
     return has_moments_ ? &targets_->moments[1 - current] : nullptr;
 }
 
-ViewPass& Views::pass(ViewKind view, bool raw) {
-    const auto key = std::tuple(view, history_, raw);
+ViewPass& Views::pass(ViewKind view, History history, bool raw) {
+    const auto key = std::tuple(view, history, raw);
     const auto found = passes_.find(key);
     if (found != passes_.end()) return found->second;
     const Stopwatch watch;
-    ViewPass& made = passes_.try_emplace(key, view, history_, raw).first->second;
+    ViewPass& made = passes_.try_emplace(key, view, history, raw).first->second;
     compile_ms_ += watch.ms();
     return made;
 }
 
 void Views::show(const RenderTargets& targets, int current, bool raw, const gl::Framebuffer& target,
                  gl::Timers& timers) {
-    show(view_, targets, current, raw, target, timers);
+    show(view_, history_, targets, current, raw, target, timers);
 }
 
 void Views::show_variance(const RenderTargets& targets, int current, const gl::Framebuffer& target,
                           gl::Timers& timers) {
-    show(ViewKind::Variance, targets, current, true, target, timers);
+    show(ViewKind::Variance, history_, targets, current, true, target, timers);
 }
 
-void Views::show(ViewKind view, const RenderTargets& targets, int current, bool raw,
+void Views::show_exact_variance(const RenderTargets& targets, int current, const gl::Framebuffer& target,
+                                gl::Timers& timers) {
+    show(ViewKind::Variance, History::Exact, targets, current, true, target, timers);
+}
+
+void Views::show(ViewKind view, History kept, const RenderTargets& targets, int current, bool raw,
                  const gl::Framebuffer& target, gl::Timers& timers) {
     const FrameTargets& frame = targets.frames[current];
     const Sums& sums = targets.sums[current];
     const gl::Texture* history = nullptr;
     const gl::Texture* moments = nullptr;
-    if (history_ == History::Exact) {
+    if (kept == History::Exact) {
         history = &targets.filtered[current];
         moments = &sums.sum;
-    } else if (history_ != History::None) {
+    } else if (kept != History::None) {
         history = &frame.history;
         if (targets_) moments = &targets_->moments[current];
     }
-    pass(view, raw).record({.surface = frame.surface,
-                            .counts = targets_ ? &targets_->counts : nullptr,
-                            .history = history,
-                            .moments = moments,
-                            .correction = history_ == History::Exact ? &sums.correction : nullptr},
-                           {.picture = target}, timers);
+    pass(view, kept, raw)
+        .record({.surface = frame.surface,
+                 .counts = targets_ ? &targets_->counts : nullptr,
+                 .history = history,
+                 .moments = moments,
+                 .correction = kept == History::Exact ? &sums.correction : nullptr},
+                {.picture = target}, timers);
 }
 
 }  // namespace tarn

@@ -39,6 +39,9 @@ class Views {
     // The raw view of the variance, of a frame that kept it.
     void show_variance(const RenderTargets& targets, int current, const gl::Framebuffer& target,
                        gl::Timers& timers);
+    // Likewise of an exact mean's own targets, beside which the picture's may be of another history.
+    void show_exact_variance(const RenderTargets& targets, int current, const gl::Framebuffer& target,
+                             gl::Timers& timers);
 
     double compile_ms() const { return compile_ms_; }
     template <typename Function>
@@ -53,8 +56,8 @@ class Views {
         gl::Framebuffer trace[2], history[2];
         explicit Targets(const RenderTargets& targets);
     };
-    ViewPass& pass(ViewKind view, bool raw);
-    void show(ViewKind view, const RenderTargets& targets, int current, bool raw,
+    ViewPass& pass(ViewKind view, History history, bool raw);
+    void show(ViewKind view, History history, const RenderTargets& targets, int current, bool raw,
               const gl::Framebuffer& target, gl::Timers& timers);
 
     std::optional<Targets> targets_;

@@ -89,7 +89,8 @@ void path_options(CLI::App* render, Arguments& arguments, CLI::Option* frames) {
         "0; straight\n"
         "                   between them\n"
         "  edits            list of {{frame, center_vox, shape (sphere, cube), radius_vox, material, "
-        "overwrite}}\n"
+        "overwrite,\n"
+        "                   begins (a stroke)}}, and of {{frame, stroke (undo, redo)}}\n"
         "With --exact each frame is the mean of --spp samples.",
         fmt::join(builtin_recordings(), ", ")));
 }
@@ -169,7 +170,9 @@ void bench_options(CLI::App* bench, Arguments& arguments) {
         "(voxel),\n"
         "         Embree's packets and single rays (embree-8, embree-1), where it is built in\n"
         "  frame  frames of every quality at 640x360 and 1280x720, and their passes\n"
-        "  sim    ticks: all awake, a tenth awake, asleep; a copy of the cells' bytes\n"
+        "  sim    ticks: all awake, a tenth awake, asleep; all of it on the CPU's threads, with and without "
+        "AVX2;\n"
+        "         both again under tier block; a world of 64^3 asleep; a copy of the cells' bytes\n"
         "  edit   strokes of the brush of radius 1, 8 and 32\n"
         "  start  the program's start to its first frame, with empty and with filled caches of shaders; peak "
         "memory\n"
@@ -195,9 +198,9 @@ void tradeoff_options(CLI::App* tradeoff, Arguments& arguments, std::string& siz
                          "Folder for tradeoff.csv, charts and references; made where it is missing");
     tradeoff->add_flag("--resume", arguments.resume,
                        "Go on with the rows in --out that this very program wrote, asked the same");
-    tradeoff->add_option(
-        "--size", size,
-        "Size of the timed pictures, WIDTHxHEIGHT (640x360); errors are of a quarter of it each way");
+    tradeoff->add_option("--size", size,
+                         "Size of the timed pictures, WIDTHxHEIGHT (640x360), at least 32x16; errors are of "
+                         "a quarter of it each way");
     tradeoff->add_flag("--report", arguments.report,
                        "Measure nothing: tables and charts of the rows in --out again");
     tradeoff->add_option(

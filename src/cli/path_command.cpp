@@ -80,6 +80,7 @@ int render_path(const Arguments& arguments, glm::ivec2 size_px) {
     Simulation simulation(scene, timers);
     Renderer renderer(scene, timers);
     run_ticks(simulation, settings, arguments.ticks, timers);
+    EditHistory history;
     const int renders = arguments.exact ? arguments.spp / settings.samples_per_pixel : 1;
     const auto draw = [&] {
         for (int i = 0; i < renders; ++i) {
@@ -92,7 +93,7 @@ int render_path(const Arguments& arguments, glm::ivec2 size_px) {
     Progress progress("frames", static_cast<std::uint64_t>(recording.frames()));
     for (int frame = 0; frame < recording.frames(); ++frame) {
         place_camera(recording, frame, scene.settings, settings);
-        play_world(recording, frame, scene.settings, simulation, settings);
+        play_world(recording, frame, scene.settings, simulation, settings, history);
         if (arguments.exact) renderer.reset_history();
         draw();
         if (strip)

@@ -37,6 +37,7 @@ constexpr SceneChoice scene_choices[] = {{"lake", 0}, {"waterfall", 200}, {"gall
 constexpr std::size_t batch_size = 8;
 constexpr int chart_scale = 2;
 constexpr int front_points_max = 12;
+constexpr glm::ivec2 size_min_px{32, 16};
 
 std::uint64_t hash_of_text(std::string_view text, std::uint64_t hash) {
     for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ull;
@@ -326,11 +327,16 @@ int run_tradeoff_command(const Arguments& arguments) {
     const auto names = names_of("--scene", scenes, tradeoff_scenes());
     if (arguments.resume && arguments.out.empty()) fail("--resume: of the rows in a folder; give --out too");
     if (arguments.report && arguments.out.empty()) fail("--report: of the rows in a folder; give --out too");
+    const glm::ivec2 size = time_size(arguments);
+    if (size.x < size_min_px.x || size.y < size_min_px.y)
+        fail(
+            "--size: {}x{}: errors are of a quarter of it each way, and mean nothing of so few pixels; at "
+            "least {}x{}",
+            size.x, size.y, size_min_px.x, size_min_px.y);
     if (!arguments.write_front.empty()) check_writable(arguments.write_front);
     if (arguments.report) return report_again(arguments);
     if (!arguments.out.empty()) make_folder(arguments.out, {"tradeoff.svg"});
     const auto platform = make_headless({1, 1}, 0);
-    const glm::ivec2 size = time_size(arguments);
     fmt::print("rendered by {}; times at {}x{}, errors at {}x{}\n", gl::driver_info().renderer, size.x,
                size.y, std::max(size.x / 4, 1), std::max(size.y / 4, 1));
     std::fflush(stdout);

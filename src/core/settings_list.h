@@ -89,6 +89,7 @@
     REAL(camera_yaw_deg, 0, -360, 360, CAMERA, NONE, "Heading: 0 looks along -z and grows to the right.")    \
     REAL(camera_pitch_deg, 0, -90, 90, CAMERA, NONE, "Elevation of the view; grows upward.")                 \
     REAL(camera_fov_deg, 60, 1, 179, CAMERA, NONE, "Vertical field of view.")                                \
+    BOOL(fly_through_ground, false, CAMERA, NONE, "Fly through solid voxels; off: slide along them.")        \
     REAL(water_ior, 1.333, 0.75, 3, WATER, IMAGE, "Refractive index of water.")                              \
     COLOR(water_color, 0.7, 0.93, 0.96, 0.0001, 1, WATER, IMAGE,                                             \
           "Colour of white light after one metre of water.")                                                 \

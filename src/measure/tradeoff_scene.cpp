@@ -108,9 +108,10 @@ void TradeoffScene::play(const OfRecording& of, Settings& settings, bool lead,
     place_camera(of.recording, 0, scene_.settings, settings);
     for (int i = 0; lead && i < of.recording.lead_frames; ++i) draw();
     std::size_t compared = 0;
+    EditHistory history;
     for (int frame = 0; frame <= of.frames.back(); ++frame) {
         place_camera(of.recording, frame, scene_.settings, settings);
-        play_world(of.recording, frame, scene_.settings, *simulation_, settings);
+        play_world(of.recording, frame, scene_.settings, *simulation_, settings, history);
         draw();
         if (compared < of.frames.size() && frame == of.frames[compared]) {
             compare(static_cast<int>(compared));
@@ -164,7 +165,7 @@ PictureError TradeoffScene::measure_error(const Recording& recording, const Conf
             of, settings, true, [&] { draw(settings, options_.error_px); },
             [&](int) {
                 runs[run].push_back(shown());
-                renderer_->measure_error();
+                renderer_->measure_error(*simulation_);
                 if (const auto estimate = renderer_->estimated_error(true)) {
                     predicted += *estimate;
                     ++predictions;
@@ -203,7 +204,7 @@ std::vector<PictureError> TradeoffScene::measure_exact(const Recording& recordin
         error.error = error_of(shown(), reference);
         error.floor = floor_of(reference);
         error.reference_samples = 2 * reference.samples;
-        renderer_->measure_error();
+        renderer_->measure_error(*simulation_);
         error.predicted = renderer_->estimated_error(true).value_or(-1);
     }
     return errors;

@@ -15,7 +15,12 @@ ErrorPass::ErrorPass()
       sums_("error sums", ERROR_GROUPS * sizeof(glm::vec4)) {}
 
 ErrorPass::~ErrorPass() {
+    discard();
+}
+
+void ErrorPass::discard() {
     if (fence_ != nullptr) glDeleteSync(fence_);
+    fence_ = nullptr;
 }
 
 void ErrorPass::record(const Inputs& inputs, gl::Timers& timers) {
@@ -36,8 +41,7 @@ std::optional<double> ErrorPass::take(bool wait) {
     const GLenum state = glClientWaitSync(fence_, GL_SYNC_FLUSH_COMMANDS_BIT, 0);
     const bool arrived = state == GL_ALREADY_SIGNALED || state == GL_CONDITION_SATISFIED;
     if (!arrived && !wait) return std::nullopt;
-    glDeleteSync(fence_);
-    fence_ = nullptr;
+    discard();
     std::array<glm::vec4, ERROR_GROUPS> sums{};
     sums_.download(std::span<glm::vec4>(sums));
     double relative = 0;

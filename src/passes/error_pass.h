@@ -29,6 +29,7 @@ class ErrorPass {
     // The mean over the pixels with a variance of variance / (luminance^2 + 0.01 mean(luminance)^2), once it
     // has arrived; wait: at once. Below 0 where no pixel has one.
     std::optional<double> take(bool wait);
+    void discard();  // what is under way
 
     template <typename Function>
     void for_each_program(Function function) {

@@ -47,7 +47,7 @@ TracePrograms::~TracePrograms() {
 }
 
 TracePrograms::Built TracePrograms::build(const Order& order) {
-    Built built{order.features, std::nullopt, ""};
+    Built built{order.features, order.sources, std::nullopt, ""};
     try {
         built.pass.emplace(order.features);
         built.pass->rehearse(order.shapes);
@@ -74,7 +74,8 @@ void TracePrograms::work() {
         orders_.pop_front();
         busy_ = true;
         lock.unlock();
-        Built built = no_context.empty() ? build(order) : Built{order.features, std::nullopt, no_context};
+        Built built = no_context.empty() ? build(order)
+                                         : Built{order.features, order.sources, std::nullopt, no_context};
         lock.lock();
         built.at = std::chrono::steady_clock::now();
         built_.push_back(std::move(built));
@@ -87,10 +88,10 @@ void TracePrograms::work() {
 }
 
 void TracePrograms::order(const TraceFeatures& features, const TraceShapes& shapes) {
-    if (passes_.contains(features) || !ordered_.insert(features).second) return;
+    if (passes_.contains(features) || failed_.contains(features) || !ordered_.insert(features).second) return;
     {
         const std::scoped_lock lock(mutex_);
-        orders_.push_back({features, shapes});
+        orders_.push_back({features, shapes, sources_});
     }
     changed_.notify_all();
 }
@@ -106,12 +107,14 @@ void TracePrograms::collect(bool settled) {
         built_.erase(ready, built_.end());
     }
     for (Built& b : built) {
+        ordered_.erase(b.features);
         if (b.pass) {
-            ordered_.erase(b.features);
             passes_.try_emplace(b.features, std::move(*b.pass));
-        } else {
-            errors_.push_back(b.error);
+            continue;
         }
+        errors_.push_back(b.error);
+        // Of sources that have changed meanwhile it says nothing.
+        if (b.sources == sources_) failed_.insert(b.features);
     }
 }
 
@@ -143,8 +146,10 @@ TracePrograms::Choice TracePrograms::choose(const TraceFeatures& needed, const T
     const auto found = passes_.find(needed);
     if (found == passes_.end() && (!worker_.joinable() || passes_.empty() || needed.count)) {
         // The general one is not ordered yet: the first frame has the machine for itself.
+        const TracePass& pass = build_now(needed);
         last_ = needed;
-        return {build_now(needed), true};
+        exact_ = true;
+        return {pass, true};
     }
     if (!worker_.joinable()) return {found->second, true};
     const TracePass* pass = found != passes_.end() ? &found->second : smallest_between(needed, general);
@@ -187,8 +192,8 @@ void TracePrograms::poll_reload(std::vector<std::string>& messages) {
     }
     if (!reloaded) return;
     // What failed before may compile now.
-    const std::scoped_lock lock(mutex_);
-    if (orders_.empty() && !busy_) ordered_.clear();
+    ++sources_;
+    failed_.clear();
 }
 
 }  // namespace tarn

@@ -52,9 +52,11 @@ class TracePrograms {
     struct Order {
         TraceFeatures features;
         TraceShapes shapes;
+        std::uint32_t sources;  // when it was ordered
     };
     struct Built {
         TraceFeatures features;
+        std::uint32_t sources;
         std::optional<TracePass> pass;
         std::string error;  // where there is no pass
         std::chrono::steady_clock::time_point at{};
@@ -67,7 +69,8 @@ class TracePrograms {
     const TracePass* smallest_between(const TraceFeatures& needed, const TraceFeatures& general) const;
 
     std::map<TraceFeatures, TracePass> passes_;
-    std::set<TraceFeatures> ordered_;  // and those that failed
+    std::set<TraceFeatures> ordered_, failed_;  // under way; not tried again until a shader changes
+    std::uint32_t sources_ = 0;                 // counts their changes
     std::vector<std::string> errors_;
     TraceFeatures last_{};
     bool exact_ = true;  // the last choice

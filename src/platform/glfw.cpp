@@ -48,6 +48,8 @@ constexpr KeyBinding key_bindings[] = {
     {GLFW_KEY_4, Key::Digit4},        {GLFW_KEY_5, Key::Digit5},
     {GLFW_KEY_6, Key::Digit6},        {GLFW_KEY_7, Key::Digit7},
     {GLFW_KEY_8, Key::Digit8},        {GLFW_KEY_9, Key::Digit9},
+    {GLFW_KEY_F11, Key::Record},      {GLFW_KEY_HOME, Key::Home},
+    {GLFW_KEY_G, Key::Home},
 };
 
 constexpr std::pair<int, MouseButton> button_bindings[] = {

@@ -28,10 +28,12 @@ enum class Key {
     Faster,
     Slower,
     Reset,
+    Home,  // the camera where the scene begins
     Help,
     Settings,
     Overlay,
     Screenshot,
+    Record,         // starts or stops a recording
     View,           // the next one; with Fast the one before
     MouseLook,      // toggles
     MouseLookHold,  // while held

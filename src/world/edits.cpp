@@ -95,16 +95,16 @@ void EditHistory::record(const Edit& edit, const Box& bounds, const std::vector<
     log_.push_back(edit);
     clear_redo();
     if (open_ == Open::TooLong) return;
-    Stroke changes;
+    std::vector<CellChange> changes;
     for_each_cell(bounds, [&](glm::ivec3 cell, std::size_t index) {
         if (before[index] != after[index]) changes.push_back({cell, before[index], after[index]});
     });
     if (changes.empty()) return;
     kept_changes_ += changes.size();
     if (open_ == Open::Newest)
-        undo_.back().insert(undo_.back().end(), changes.begin(), changes.end());
+        undo_.back().changes.insert(undo_.back().changes.end(), changes.begin(), changes.end());
     else
-        undo_.push_back(std::move(changes));
+        undo_.push_back({std::move(changes)});
     open_ = Open::Newest;
     drop_beyond_cap();
 }
@@ -112,7 +112,7 @@ void EditHistory::record(const Edit& edit, const Box& bounds, const std::vector<
 std::optional<std::vector<CellChange>> EditHistory::undo() {
     if (undo_.empty()) return std::nullopt;
     open_ = Open::None;
-    Stroke changes = undo_.back();
+    std::vector<CellChange> changes = undo_.back().changes;
     redo_.push_back(std::move(undo_.back()));
     undo_.pop_back();
     std::reverse(changes.begin(), changes.end());
@@ -123,10 +123,21 @@ std::optional<std::vector<CellChange>> EditHistory::undo() {
 std::optional<std::vector<CellChange>> EditHistory::redo() {
     if (redo_.empty()) return std::nullopt;
     open_ = Open::None;
-    Stroke changes = redo_.back();
+    std::vector<CellChange> changes = redo_.back().changes;
+    for (const CellChange& taken : redo_.back().taken)
+        changes.push_back({taken.cell, taken.after, taken.before});
+    kept_changes_ -= redo_.back().taken.size();
+    redo_.back().taken.clear();
     undo_.push_back(std::move(redo_.back()));
     redo_.pop_back();
     return changes;
+}
+
+void EditHistory::took(const std::vector<CellChange>& changes) {
+    CHECK(!redo_.empty());
+    std::vector<CellChange>& taken = redo_.back().taken;
+    taken.insert(taken.end(), changes.begin(), changes.end());
+    kept_changes_ += changes.size();
 }
 
 void EditHistory::clear() {

@@ -47,6 +47,14 @@ struct CellChange {
     bool operator==(const CellChange&) const = default;
 };
 
+// What a stroke poured and that has flowed on. `undone`: EditHistory::undo()'s; `before` and `after`: the
+// bytes of `box`, which holds all its cells, around writing that. Changes that take as much water and sand
+// out of `after` as the stroke placed more than the writing took: the nearest by the way that it may have
+// gone, through air, water and sand, downwards at no cost; as far as there is any in the box.
+std::vector<CellChange> flowed_on(const std::vector<CellChange>& undone, const Box& box,
+                                  const std::vector<std::uint8_t>& before,
+                                  const std::vector<std::uint8_t>& after);
+
 class EditHistory {
   public:
     // Opens a new stroke; edits recorded until the next one belong to it. Clears what could be redone.
@@ -59,13 +67,19 @@ class EditHistory {
     // stroke that alone exceeds them cannot be undone. Strokes that changed nothing are not kept.
     std::optional<std::vector<CellChange>> undo();  // before/after swapped: `after` is the byte to write
     std::optional<std::vector<CellChange>> redo();
+    // What was taken with the last undo() beside its changes: redo() gives it back.
+    void took(const std::vector<CellChange>& changes);
     bool can_undo() const { return !undo_.empty(); }
     bool can_redo() const { return !redo_.empty(); }
     const std::vector<Edit>& log() const { return log_; }  // every edit since the start, for replay
     void clear();
 
   private:
-    using Stroke = std::vector<CellChange>;
+    struct Stroke {
+        std::vector<CellChange> changes;
+        std::vector<CellChange> taken{};  // by its undo, elsewhere
+        std::size_t size() const { return changes.size() + taken.size(); }
+    };
     void clear_redo();
     void drop_beyond_cap();
 

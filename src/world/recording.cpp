@@ -17,6 +17,7 @@ constexpr double position_max_vox = 1e7;
 constexpr int ticks_max = 1000;
 constexpr int radius_max_vox = 256;
 constexpr const char* shape_names[] = {"sphere", "cube"};
+constexpr const char* stroke_names[] = {"undo", "redo"};
 
 std::string name_of(const std::string& path) {
     return std::filesystem::path(path).stem().string();
@@ -60,9 +61,16 @@ CameraKey read_key(const JsonNode& node, int last_frame, const Recording& record
 }
 
 RecordedEdit read_edit(const JsonNode& node, int first_frame, int last_frame) {
-    node.allow_only({"frame", "center_vox", "shape", "radius_vox", "material", "overwrite"});
+    node.allow_only(
+        {"frame", "center_vox", "shape", "radius_vox", "material", "overwrite", "begins", "stroke"});
     RecordedEdit edit;
     edit.frame = static_cast<int>(node.need("frame").integer(first_frame, last_frame));
+    if (const auto stroke = node.find("stroke")) {
+        node.allow_only({"frame", "stroke"});
+        edit.kind =
+            choice_of(*stroke, stroke_names) == 0 ? RecordedEdit::Kind::Undo : RecordedEdit::Kind::Redo;
+        return edit;
+    }
     edit.center_vox = glm::vec3(node.need("center_vox").vec3(-position_max_vox, position_max_vox));
     if (const auto shape = node.find("shape"))
         edit.edit.shape = static_cast<BrushShape>(choice_of(*shape, shape_names));
@@ -77,6 +85,7 @@ RecordedEdit read_edit(const JsonNode& node, int first_frame, int last_frame) {
     }
     edit.edit.material = *id;
     if (const auto overwrite = node.find("overwrite")) edit.edit.overwrite = overwrite->flag();
+    if (const auto begins = node.find("begins")) edit.begins = begins->flag();
     return edit;
 }
 
@@ -146,13 +155,20 @@ std::string recording_json(const Recording& recording) {
         root["keys"].push_back(item);
     }
     root["edits"] = Json::array();
-    for (const RecordedEdit& e : recording.edits)
+    for (const RecordedEdit& e : recording.edits) {
+        if (e.kind != RecordedEdit::Kind::Edit) {
+            root["edits"].push_back(
+                {{"frame", e.frame}, {"stroke", stroke_names[e.kind == RecordedEdit::Kind::Undo ? 0 : 1]}});
+            continue;
+        }
         root["edits"].push_back({{"frame", e.frame},
                                  {"center_vox", vec(e.center_vox)},
                                  {"shape", shape_names[static_cast<std::size_t>(e.edit.shape)]},
                                  {"radius_vox", e.edit.radius_vox},
                                  {"material", std::string(material_name(e.edit.material))},
-                                 {"overwrite", e.edit.overwrite}});
+                                 {"overwrite", e.edit.overwrite},
+                                 {"begins", e.begins}});
+    }
     return root.dump(1) + "\n";
 }
 

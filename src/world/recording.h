@@ -20,9 +20,12 @@ struct CameraKey {
 };
 
 struct RecordedEdit {
+    enum class Kind { Edit, Undo, Redo };
     int frame = 0;  // applied before its ticks
     glm::vec3 center_vox{0};
-    Edit edit;  // but for tick and centre
+    Edit edit = {};       // but for tick and centre
+    bool begins = false;  // a stroke, which the edits after it go on with
+    Kind kind = Kind::Edit;
     bool operator==(const RecordedEdit&) const = default;
 };
 

@@ -67,6 +67,8 @@ class Tradeoff(Case):
         self.refuse(["tradeoff", "--report"], "--report", "--out")
         self.refuse(["tradeoff", "--report", "--out", "none"], "none", "No such file")
         self.refuse(["tradeoff", "--size", "0x9"], "--size 0x9")
+        for size in ("1x1", "31x16", "32x15"):
+            self.refuse(["tradeoff", "--quick", "--part", "light", "--size", size], "--size", size, "32x16")
         self.refuse(["tradeoff", "--write-front", "missing/f.json"], "missing", "cannot write")
         self.write("file", "")
         self.refuse(["tradeoff", "--out", "file"], "--out file")

@@ -7,8 +7,10 @@
 #include <filesystem>
 #include <set>
 
+#include "app/replay.h"
 #include "core/error.h"
 #include "gpu/gl_test.h"
+#include "world/recording.h"
 
 namespace tarn {
 namespace {
@@ -280,13 +282,122 @@ TEST_F(AppTest, AKeyShowsOneViewAfterAnotherAndKeepsTheHistory) {
     EXPECT_EQ(app.settings().view, ViewKind::History);
 }
 
-TEST_F(AppTest, PicturesNeverOverwriteOneAnother) {
-    const std::filesystem::path before = std::filesystem::current_path();
-    const std::filesystem::path folder =
+// The working directory while it lives.
+class Folder {
+  public:
+    Folder() {
+        std::filesystem::remove_all(path_);
+        std::filesystem::create_directories(path_);
+        std::filesystem::current_path(path_);
+    }
+    ~Folder() {
+        std::filesystem::current_path(before_);
+        std::filesystem::remove_all(path_);
+    }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+
+  private:
+    std::filesystem::path before_ = std::filesystem::current_path();
+    std::filesystem::path path_ =
         std::filesystem::path(testing::TempDir()) / fmt::format("tarn_app_test_{}", getpid());
-    std::filesystem::remove_all(folder);
-    std::filesystem::create_directories(folder);
-    std::filesystem::current_path(folder);
+};
+
+TEST_F(AppTest, ARecordingPlaysFlightStrokesUndoAndRedoToTheSameWorld) {
+    const Folder folder;
+    Scene scene = meadow();
+    App app(scene, scene.settings, interactive());
+    play(app, pressing(Key::Record));
+    std::vector<glm::vec3> eyes;
+    const auto make = [&](const Input& input) {
+        play(app, input);
+        eyes.push_back(app.settings().camera_position_vox);
+    };
+    make(hands());
+    Input pour = clicking(MouseButton::Left);
+    for (int i = 0; i < 5; ++i) {
+        make(pour);
+        pour.mouse_pressed = {};
+    }
+    Input move = hands();
+    move.down[static_cast<std::size_t>(Key::Up)] = true;
+    make(move);
+    make(pressing(Key::Digit1));
+    make(clicking(MouseButton::Left));
+    make(hands());
+    make(pressing(Key::Undo));
+    make(pressing(Key::Undo));
+    make(pressing(Key::Redo));
+    for (int i = 0; i < 5; ++i) make(hands());
+    const Cells at_end = app.simulation().read_cells();
+    EXPECT_GT(take_census(at_end).water_quanta, 0u);
+    play(app, pressing(Key::Record));  // ends before the frame's own ticks
+    const Recording recording = load_recording("tarn-0001.flight.json");
+    ASSERT_EQ(recording.frames(), static_cast<int>(eyes.size()) + 1);
+    gl::Timers timers;
+    Simulation simulation(scene, timers);
+    EditHistory history;
+    Settings settings = scene.settings;
+    for (int frame = 1; frame < recording.frames(); ++frame) {
+        place_camera(recording, frame, scene.settings, settings);
+        EXPECT_EQ(settings.camera_position_vox, eyes[static_cast<std::size_t>(frame) - 1]) << frame;
+    }
+    for (int frame = 0; frame < recording.frames(); ++frame)
+        play_world(recording, frame, scene.settings, simulation, settings, history);
+    EXPECT_EQ(simulation.read_cells(), at_end);
+    // Another world ends a recording: its file is the next.
+    play(app, pressing(Key::Record));
+    play(app, hands());
+    play(app, pressing(Key::Reset));
+    EXPECT_TRUE(std::filesystem::exists("tarn-0002.flight.json"));
+}
+
+TEST_F(AppTest, UndoOfAPourTakesWhatFlowedOnAndRedoGivesItBack) {
+    Scene scene = meadow();
+    App app(scene, scene.settings, interactive());
+    Input pour = clicking(MouseButton::Left);
+    for (int i = 0; i < 10; ++i) {
+        play(app, pour);
+        pour.mouse_pressed = {};
+    }
+    play(app, pressing(Key::Pause));
+    for (int i = 0; i < 40; ++i) play(app, pressing(Key::Step));
+    const std::uint64_t poured = take_census(app.simulation().read_cells()).water_quanta;
+    EXPECT_GT(poured, 16u * 33);
+    const auto books = [&] {
+        const EditTotals& edits = app.simulation().edit_totals();
+        return edits.placed.water_quanta - edits.removed.water_quanta;
+    };
+    play(app, pressing(Key::Undo));
+    EXPECT_EQ(take_census(app.simulation().read_cells()).water_quanta, 0u) << "all of " << poured;
+    EXPECT_EQ(app.simulation().read_cells(), scene.cells);
+    EXPECT_EQ(books(), 0u);
+    play(app, pressing(Key::Redo));
+    EXPECT_GT(take_census(app.simulation().read_cells()).water_quanta, poured / 2);
+    EXPECT_EQ(take_census(app.simulation().read_cells()).water_quanta, books());
+}
+
+TEST_F(AppTest, TheGroundStopsTheEyeUnlessAskedAndHomeBringsItBack) {
+    const auto sink = [](App& app) {
+        Input down = hands(0.25);
+        down.down[static_cast<std::size_t>(Key::Down)] = true;
+        for (int i = 0; i < 20; ++i) play(app, down);
+        return app.settings().camera_position_vox;
+    };
+    Scene scene = meadow();
+    App app(scene, scene.settings, interactive());
+    play(app, pressing(Key::Pause));
+    EXPECT_NEAR(sink(app).y, 1.25f, 1e-3f) << "a quarter of a voxel above the grass";
+    play(app, pressing(Key::Home));
+    EXPECT_EQ(app.settings().camera_position_vox, scene.settings.camera_position_vox);
+    EXPECT_EQ(app.settings().camera_pitch_deg, scene.settings.camera_pitch_deg);
+    scene.settings.fly_through_ground = true;
+    App ghost(scene, scene.settings, interactive());
+    EXPECT_LT(sink(ghost).y, 0);
+}
+
+TEST_F(AppTest, PicturesNeverOverwriteOneAnother) {
+    const Folder folder;
     Scene scene = meadow();
     App app(scene, scene.settings, interactive());
     play(app, pressing(Key::Screenshot));
@@ -294,8 +405,6 @@ TEST_F(AppTest, PicturesNeverOverwriteOneAnother) {
     for (const char* name : {"tarn-0001.png", "tarn-0001.json", "tarn-0002.png", "tarn-0002.json"})
         EXPECT_TRUE(std::filesystem::exists(name)) << name;
     EXPECT_EQ(read_png("tarn-0001.png").width, size_px.x);
-    std::filesystem::current_path(before);
-    std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -219,8 +219,8 @@ def open_panels(game):
     game.press("F1", "F3", "F2")
     wait_for("Settings", lambda: differing_pixels(plain, game.photograph("6-settings")) > 20000)
     # Its first button, Pause, stops the world; the panel lies right, its size follows the window's.
-    left = SIZE[0] * 0.98 - min(13 * 30, SIZE[0] * 0.8)
-    game.point(round(left + 25), 50)
+    left = SIZE[0] * 0.99 - min(13 * 30, SIZE[0] * 0.55)
+    game.point(round(left + 25), 44)
     game.hold_button(1)
     paused = game.state()["tick"]
     check(game.state()["tick"] == paused, "the button Pause does not pause")

@@ -249,5 +249,71 @@ TEST(Edits, HistoryKeepsTheYoungestStrokesWithin64MiB) {
     EXPECT_EQ(history.log().size(), 7u);
 }
 
+std::int64_t water_in(const std::vector<std::uint8_t>& bytes) {
+    std::int64_t quanta = 0;
+    for (const std::uint8_t byte : bytes) quanta += quanta_of(byte);
+    return quanta;
+}
+
+TEST(Edits, WhatAStrokePouredIsTakenBackWhereItFlowed) {
+    // A pond of two cells in a row of ten, a stroke at the other end that filled its cell three times.
+    const Box row{{0, 0, 0}, {10, 1, 1}};
+    const auto water = [](int quanta) { return static_cast<std::uint8_t>(63 + quanta); };
+    const std::vector<CellChange> undone = {{{9, 0, 0}, water(16), water(9)},
+                                            {{9, 0, 0}, water(16), water(4)},
+                                            {{9, 0, 0}, water(16), MATERIAL_AIR}};
+    const std::int64_t poured = 16 + 12 + 7;
+    const std::vector<std::uint8_t> pond = {water(16), water(16), 0, 0, 0, 0, 0, 0, 0, 0};
+    std::vector<std::uint8_t> now = {water(16), water(16), water(1), water(3), water(4),
+                                     0,         water(5),  water(6), water(7), water(9)};
+    ASSERT_EQ(water_in(now), water_in(pond) + poured);
+    std::vector<std::uint8_t> written = now;
+    written[9] = MATERIAL_AIR;
+    const auto taken = flowed_on(undone, row, now, written);
+    for (const CellChange& change : taken) {
+        EXPECT_EQ(change.before, written[change.cell.x]);
+        written[change.cell.x] = change.after;
+    }
+    EXPECT_EQ(written, pond) << "all of it, the nearest first";
+    // Behind stone it is out of reach, and so stays.
+    now[5] = MATERIAL_STONE;
+    written = now;
+    written[9] = MATERIAL_AIR;
+    std::int64_t quanta = 0;
+    for (const CellChange& change : flowed_on(undone, row, now, written)) {
+        EXPECT_GT(change.cell.x, 5);
+        quanta += static_cast<std::int64_t>(quanta_of(change.before)) - quanta_of(change.after);
+    }
+    EXPECT_EQ(quanta, 5 + 6 + 7);
+    // A stroke that took water gives none to take.
+    EXPECT_TRUE(flowed_on({{{9, 0, 0}, MATERIAL_AIR, water(16)}}, row, pond, pond).empty());
+    EXPECT_TRUE(flowed_on({{{9, 0, 0}, MATERIAL_STONE, MATERIAL_AIR}}, row, pond, pond).empty());
+}
+
+TEST(Edits, PouredSandIsTakenBackFromItsHeap) {
+    const Box column{{0, 0, 0}, {1, 6, 1}};
+    const std::vector<CellChange> undone = {{{0, 5, 0}, MATERIAL_SAND, MATERIAL_AIR},
+                                            {{0, 5, 0}, MATERIAL_SAND, MATERIAL_AIR}};
+    const std::vector<std::uint8_t> now = {MATERIAL_STONE, MATERIAL_SAND, MATERIAL_SAND, MATERIAL_SAND, 0, 0};
+    const auto taken = flowed_on(undone, column, now, now);
+    ASSERT_EQ(taken.size(), 2u);
+    EXPECT_EQ(taken[0], (CellChange{{0, 3, 0}, MATERIAL_SAND, MATERIAL_AIR}));
+    EXPECT_EQ(taken[1], (CellChange{{0, 2, 0}, MATERIAL_SAND, MATERIAL_AIR}));
+}
+
+TEST(Edits, RedoGivesBackWhatUndoTookElsewhere) {
+    EditHistory history;
+    history.begin_stroke();
+    history.record({.material = MATERIAL_WATER}, {{3, 3, 3}, {4, 4, 4}}, {MATERIAL_AIR},
+                   {MATERIAL_WATER_FULL});
+    for (int again = 0; again < 2; ++again) {
+        ASSERT_EQ(history.undo()->size(), 1u);
+        history.took({{{3, 2, 3}, MATERIAL_WATER_FULL, MATERIAL_AIR}});
+        const auto redone = history.redo();
+        ASSERT_EQ(redone->size(), 2u);
+        EXPECT_EQ(redone->at(1), (CellChange{{3, 2, 3}, MATERIAL_AIR, MATERIAL_WATER_FULL}));
+    }
+}
+
 }  // namespace
 }  // namespace tarn

@@ -23,7 +23,8 @@ TEST(Recording, IsReadAndWrittenAlike) {
             "keys": [{"frame": 0, "position_vox": [1, 2, 3], "yaw_deg": 10, "fov_deg": 40},
                      {"frame": 2, "position_vox": [3, 2, 3], "pitch_deg": -4, "fov_deg": 60}],
             "edits": [{"frame": 1, "center_vox": [4, 5, 6], "shape": "cube", "radius_vox": 2,
-                       "material": "sand", "overwrite": true}]})",
+                       "material": "sand", "overwrite": true, "begins": true},
+                      {"frame": 1, "stroke": "undo"}, {"frame": 2, "stroke": "redo"}]})",
         "some/r.json");
     EXPECT_EQ(recording.name, "r");
     EXPECT_FALSE(recording.relative);
@@ -31,6 +32,9 @@ TEST(Recording, IsReadAndWrittenAlike) {
     EXPECT_EQ(recording.edits.at(0).edit.material, MATERIAL_SAND);
     EXPECT_EQ(recording.edits.at(0).edit.shape, BrushShape::Cube);
     EXPECT_TRUE(recording.edits.at(0).edit.overwrite);
+    EXPECT_TRUE(recording.edits.at(0).begins);
+    EXPECT_EQ(recording.edits.at(1).kind, RecordedEdit::Kind::Undo);
+    EXPECT_EQ(recording.edits.at(2).kind, RecordedEdit::Kind::Redo);
     EXPECT_EQ(parse_recording(recording_json(recording), "r.json"), recording);
 }
 

@@ -117,6 +117,42 @@ TEST(Camera, MouseTurnsRightAndUp) {
     EXPECT_EQ(settings.camera_pitch_deg, 90);
 }
 
+// The half-space below y = 0 and that beyond x = 10, in voxels, and one block apart.
+bool is_solid(glm::ivec3 cell) {
+    return cell.y < 0 || cell.x >= 10 || cell == glm::ivec3(4, 2, 4);
+}
+
+// By small steps: enough for a test.
+std::optional<glm::ivec3> first_solid(glm::vec3 from, glm::vec3 dir) {
+    for (float t = 0; t < 40; t += 1e-3f) {
+        const glm::ivec3 cell(glm::floor(from + t * dir));
+        if (is_solid(cell)) return cell;
+    }
+    return std::nullopt;
+}
+
+TEST(Camera, SlidesAlongSolidsAndNeverInto) {
+    expect_near(slide({1, 1, 1}, {3, 2, 1}, first_solid), {3, 2, 1});
+    const glm::vec3 on_ground = slide({1, 1, 1}, {3, -5, 1}, first_solid);
+    expect_near(on_ground, {3, 0.25f, 1}, 1e-3f);
+    const glm::vec3 in_corner = slide(on_ground, {30, -9, 2}, first_solid);
+    expect_near(in_corner, {9.75f, 0.25f, 2}, 1e-3f);
+    expect_near(slide(in_corner, {30, -9, 2}, first_solid), in_corner, 1e-3f);
+    expect_near(slide(in_corner, {9, 3, 2}, first_solid), {9, 3, 2});
+    // From within it goes freely.
+    expect_near(slide({1, -2, 1}, {1, -3, 1}, first_solid), {1, -3, 1});
+    expect_near(slide({1, -2, 1}, {1, 3, 1}, first_solid), {1, 3, 1});
+    for (int i = 0; i < 400; ++i) {
+        const auto part = [&](int prime) { return static_cast<float>(i * prime % 101) / 101.f; };
+        const glm::vec3 from(9 * part(7), 0.3f + 6 * part(11), 8 * part(13));
+        if (is_solid(glm::ivec3(glm::floor(from)))) continue;
+        const glm::vec3 to = from + 20.f * (glm::vec3(part(17), part(19), part(23)) - 0.5f);
+        const glm::vec3 end = slide(from, to, first_solid);
+        EXPECT_FALSE(is_solid(glm::ivec3(glm::floor(end)))) << i;
+        EXPECT_LE(glm::distance(end, from), glm::distance(to, from) + 1e-3f);
+    }
+}
+
 TEST(Camera, AnyTimeStepIsSafe) {
     Settings settings = camera_at({1, 2, 3}, 0, 0, 60);
     settings.fly_speed_vox_s = 100;

@@ -24,7 +24,7 @@ TEST(FlightRecorder, PlaysBackTheCamerasEditsAndTicksOfEachFrame) {
         edits.push_back(
             {.tick = 99, .center_vox = {frame, -2, 7}, .radius_vox = 2, .material = MATERIAL_SAND});
         made.push_back(settings);
-        recorder.add_frame(settings, {edits.back()}, frame);
+        recorder.add_frame(settings, {{.edit = edits.back(), .begins = frame == 2}}, frame);
     }
     const auto recorded = recorder.stop();
     EXPECT_FALSE(recorder.is_on());
@@ -42,7 +42,10 @@ TEST(FlightRecorder, PlaysBackTheCamerasEditsAndTicksOfEachFrame) {
         EXPECT_EQ(played.camera_pitch_deg, made[frame].camera_pitch_deg);
         Edit expected = edits[frame];
         expected.tick = 5;
-        EXPECT_EQ(edits_of(read, frame, elsewhere, 5), std::vector<Edit>{expected});
+        const auto played_edits = edits_of(read, frame, elsewhere, 5);
+        ASSERT_EQ(played_edits.size(), 1u);
+        EXPECT_EQ(played_edits[0].edit, expected);
+        EXPECT_EQ(played_edits[0].begins, frame == 2);
     }
 }
 

@@ -174,5 +174,93 @@ TEST_F(PanelsTest, HelpIsDrawnWithoutAskingForAnything) {
     EXPECT_FALSE(actions.load_scene.has_value());
 }
 
+// The window that the game starts with.
+TEST_F(PanelsTest, ASmallWindowHasRoomForThePictureAndForTooltipsBesideThePanel) {
+    ImGui::GetIO().DisplaySize = {640, 360};
+    Panels panels;
+    panels.settings_open = true;
+    const auto draw = [&] {
+        Actions actions;
+        panels.draw({.settings = settings,
+                     .brush = brush,
+                     .defaults = defaults,
+                     .scene = "flat",
+                     .scenes = {},
+                     .paused = true,
+                     .can_undo = false,
+                     .can_redo = false},
+                    actions);
+    };
+    frame(draw);
+    frame(draw);
+    ImRect panel = ImGui::FindWindowByName("Settings")->Rect();
+    EXPECT_LE(panel.GetWidth(), 0.56f * 640);
+    EXPECT_GE(panel.Min.y, 0);
+    EXPECT_LE(panel.Max.y, 360);
+    EXPECT_LE(panel.Max.x, 640);
+    int shown = 0;
+    for (float y = panel.Min.y + 30; y < panel.Max.y; y += 12) {
+        ImGui::GetIO().MousePos = {panel.Min.x + 40, y};
+        frame(draw);
+        frame(draw);
+        for (const ImGuiWindow* w : ImGui::GetCurrentContext()->Windows) {
+            if (!w->Active || w->Hidden || (w->Flags & ImGuiWindowFlags_Tooltip) == 0) continue;
+            ++shown;
+            EXPECT_FALSE(w->Rect().Overlaps(panel)) << y;
+            EXPECT_TRUE(w->Pos.x >= 0 && w->Pos.y >= 0 && w->Rect().Max.y <= 360) << y;
+        }
+    }
+    EXPECT_GT(shown, 5);
+    panels.help_open = true;
+    frame(draw);
+    EXPECT_TRUE(panels.help_open);
+    EXPECT_FALSE(panels.settings_open) << "what was opened last has the room";
+    panels.settings_open = true;
+    frame(draw);
+    EXPECT_FALSE(panels.help_open);
+    ImGui::GetIO().DisplaySize = {1280, 720};
+    panels.help_open = true;
+    frame(draw);
+    EXPECT_TRUE(panels.help_open && panels.settings_open);
+}
+
+TEST_F(PanelsTest, RecordAndHomeAreButtons) {
+    Panels panels;
+    panels.settings_open = true;
+    Actions actions;
+    const auto draw = [&] {
+        panels.draw({.settings = settings,
+                     .brush = brush,
+                     .defaults = defaults,
+                     .scene = "flat",
+                     .scenes = {},
+                     .paused = true,
+                     .can_undo = false,
+                     .can_redo = false},
+                    actions);
+    };
+    frame(draw);
+    frame(draw);
+    ImGuiIO& io = ImGui::GetIO();
+    const ImRect area = ImGui::FindWindowByName("Settings")->ContentRegionRect;
+    int records = 0;
+    int homes = 0;
+    for (float y = area.Min.y; y < area.Min.y + 260; y += 10)
+        for (float x = area.Min.x; x < area.Max.x; x += 20) {
+            io.MousePos = {x, y};
+            frame(draw);
+            io.MouseDown[0] = true;
+            frame(draw);
+            io.MouseDown[0] = false;
+            actions = {};
+            frame(draw);
+            records += actions.record ? 1 : 0;
+            homes += actions.home ? 1 : 0;
+            ImGui::ClosePopupsOverWindow(nullptr, false);
+        }
+    EXPECT_GT(records, 0);
+    EXPECT_GT(homes, 0);
+}
+
 }  // namespace
 }  // namespace tarn
