@@ -65,8 +65,8 @@ TEST_F(WaterTest, equals_reference_for_odd_sizes_and_seeds) {
                     expect_equal_steps(tier, {.size_vox = size,
                                               .soup = soup,
                                               .seed = seed,
-                                              .ticks = large ? 40 : 200,
-                                              .ticks_between_looks = large ? 20 : 5});
+                                              .ticks = large ? 20 : 200,
+                                              .ticks_between_looks = large ? 10 : 5});
                     if (HasFatalFailure()) return;
                 }
             }
@@ -140,7 +140,7 @@ TEST_F(WaterTest, equals_reference_in_worlds_of_one_row) {
         for (const int n : {2, 300})
             for (const glm::ivec3 size : {glm::ivec3(1, n, 1), glm::ivec3(n, 1, 1), glm::ivec3(1, 1, n)})
                 for (const Soup soup : {Soup::Matter, Soup::Water}) {
-                    expect_equal_steps(tier, {.size_vox = size, .soup = soup, .seed = 2, .ticks = 100});
+                    expect_equal_steps(tier, {.size_vox = size, .soup = soup, .seed = 2, .ticks = 50});
                     if (HasFatalFailure()) return;
                 }
 }
