@@ -61,7 +61,7 @@ TEST_F(WaterTest, equals_reference_for_odd_sizes_and_seeds) {
             for (const Soup soup : {Soup::AllBytes, Soup::Matter, Soup::Water, Soup::Layers}) {
                 const bool large = size.x > 32;
                 for (const std::uint32_t seed : {1u, 77u, 0xffffffffu}) {
-                    if (size != glm::ivec3(7, 13, 5) && seed != 1u) continue;
+                    if (seed != 1u && (size != glm::ivec3(7, 13, 5) || soup != Soup::Matter)) continue;
                     expect_equal_steps(tier, {.size_vox = size,
                                               .soup = soup,
                                               .seed = seed,
