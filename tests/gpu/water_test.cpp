@@ -65,12 +65,12 @@ TEST_F(WaterTest, equals_reference_for_odd_sizes_and_seeds) {
             for (const Soup soup : {Soup::AllBytes, Soup::Matter, Soup::Water, Soup::Layers}) {
                 const bool large = size.x > 32;
                 for (const std::uint32_t seed : {1u, 77u, 0xffffffffu}) {
-                    if (size != glm::ivec3(7, 13, 5) && seed != 1u) continue;
+                    if (seed != 1u && (size != glm::ivec3(7, 13, 5) || soup != Soup::Matter)) continue;
                     expect_equal_steps(tier, {.size_vox = size,
                                               .soup = soup,
                                               .seed = seed,
-                                              .ticks = large ? 40 : 200,
-                                              .ticks_between_looks = large ? 20 : 5});
+                                              .ticks = large ? 20 : 100,
+                                              .ticks_between_looks = large ? 10 : 5});
                     if (HasFatalFailure()) return;
                 }
             }
@@ -156,7 +156,7 @@ TEST_F(WaterTest, equals_reference_in_worlds_of_one_row) {
         for (const int n : {2, 300})
             for (const glm::ivec3 size : {glm::ivec3(1, n, 1), glm::ivec3(n, 1, 1), glm::ivec3(1, 1, n)})
                 for (const Soup soup : {Soup::Matter, Soup::Water}) {
-                    expect_equal_steps(tier, {.size_vox = size, .soup = soup, .seed = 2, .ticks = 100});
+                    expect_equal_steps(tier, {.size_vox = size, .soup = soup, .seed = 2, .ticks = 50});
                     if (HasFatalFailure()) return;
                 }
 }
