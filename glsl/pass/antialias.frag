@@ -1,5 +1,6 @@
 // Edges without more rays: the surface at each of a few sub-samples of a pixel is looked for among those that the pixel
 // and its neighbours show, and the sub-sample has their light.
+#include "lib/math.glsl"
 #include "lib/nearest_surface.glsl"
 
 layout(rgba32f, binding = IMAGE_ANTIALIAS_RADIANCE) readonly restrict uniform image2D radiance;
@@ -46,8 +47,9 @@ void main() {
         unmixed += beside != 0u ? 0.0 : 1.0;
     }
     vec3 sum = unmixed * own;
+    float own_luminance = min(luminance(own), 1e30) + 1e-20;
     vec4 found = vec4(0.0);  // light times weight of the nearest surface so far, weight
-    vec4 any = vec4(0.0);    // likewise of all that were tested
+    vec4 any = vec4(0.0);    // likewise of all that were tested, less of what is brighter than the pixel
     float nearest = TRAVERSAL_NEVER;
     // One test a round: llvmpipe runs as many rounds as the pixel that has most needs.
     while (left != 0u) {
@@ -61,7 +63,8 @@ void main() {
         if (k == 1) tap.x += offset.x < 0.0 ? -1 : 1;
         if (k == 2) tap.y += offset.y < 0.0 ? -1 : 1;
         float weight = k == 1 ? abs(offset.x) : k == 2 ? abs(offset.y) : (1.0 - abs(offset.x)) * (1.0 - abs(offset.y));
-        vec4 light = weight * vec4(imageLoad(radiance, tap).rgb, 1.0);
+        vec3 shown = imageLoad(radiance, tap).rgb;
+        vec4 light = weight * vec4(shown, 1.0);
         vec3 dir = camera_ray(2.0 * (gl_FragCoord.xy + offset) / vec2(last + 1) - 1.0);
         float t = distance_to(imageLoad(surface, tap), eye, dir);
         if (t * SAME_DISTANCE < nearest) {
@@ -69,7 +72,7 @@ void main() {
             found = vec4(0.0);
         }
         if (t < TRAVERSAL_NEVER && t <= nearest * SAME_DISTANCE) found += light;
-        any += light;
+        any += light / (min(luminance(shown), 1e30) + own_luminance);
         // The last of this sub-sample. Where none of the surfaces is met, something else or the sky is seen there.
         if ((left & (7u << (TESTS * i))) == 0u) {
             vec4 mean = found.a > 0.0 ? found : any;

@@ -89,7 +89,7 @@ std::span<const Coordinate> tradeoff_coordinates() {
                                              {"history_cap", {"4", "8", "16", "32", "48", "96", "256"}, true},
                                              {"filter", {"none", "gaussian", "edge_aware"}, false},
                                              {"filter_passes", {"1", "2", "3"}, true},
-                                             {"antialiasing", {"0", "2", "4", "8"}, true}};
+                                             {"antialiasing", {"0", "4", "8"}, false}};
     return coordinates;
 }
 
