@@ -36,11 +36,12 @@ struct RenderTargets {
     gl::Texture radiance[2];  // traced; current and previous
     gl::Texture filtered[2], picture;
     gl::Texture traced_surface;  // upsampled
+    gl::Texture antialiased;     // where asked for
     gl::Texture retraced;        // of one traced pixel in RETRACE_STRIDE^2
     FrameTargets frames[2];
     Sums sums[2];
     gl::Framebuffer trace_target[2], history_target[2], filter_target[2], sums_target[2], picture_target,
-        retrace_target;
+        retrace_target, antialias_target;
 
     RenderTargets(glm::ivec2 traced, glm::ivec2 shown, bool exact_mode, bool upsampled_mode)
         : traced_px(traced),
@@ -74,6 +75,11 @@ struct RenderTargets {
         if (!exact) return;
         for (int i = 0; i < 2; ++i)
             sums_target[i] = gl::Framebuffer("sums", {&sums[i].sum, &sums[i].correction, &filtered[i]});
+    }
+    void add_antialiased() {
+        antialiased = gl::Texture(
+            {.label = "antialiased", .format = GL_RGBA32F, .size = {kept_px(), 0}, .linear = true});
+        antialias_target = gl::Framebuffer("antialias", {&antialiased});
     }
     glm::ivec2 kept_px() const { return upsampled ? shown_px : traced_px; }
     const gl::Texture& traced_surface_of(int set) const {

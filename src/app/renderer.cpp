@@ -210,6 +210,7 @@ void Renderer::Parts::render_preset(const Simulation& simulation, const Settings
                 timers);
     shown = settings.history == History::Exact ? &accumulate_exact()
                                                : &reproject_and_filter(simulation, retraced);
+    shown = &smooth_edges(simulation, *shown);
     has_history = !effect_is_late;
     frames_kept = std::min<std::uint64_t>(frames_kept + 1, FRAMES_KEPT_MAX);
 }
@@ -261,32 +262,6 @@ void Renderer::reset_history() {
 
 void Renderer::set_frame_index(std::uint64_t index) {
     parts_->frame_index = index;
-}
-
-Pick Renderer::pick(const Simulation& simulation, const Settings& settings, glm::ivec2 size_px,
-                    glm::vec2 at_px, bool through_water) {
-    return pick_along(simulation, settings, View(settings, size_px).dir_through(at_px), through_water);
-}
-
-Pick Renderer::pick_along(const Simulation& simulation, const Settings& settings, glm::vec3 dir,
-                          bool through_water) {
-    Parts& p = *parts_;
-    const FrameBlock block = make_frame_block({.settings = settings,
-                                               .world_size_vox = simulation.size_vox(),
-                                               .metres_per_voxel = p.metres_per_voxel,
-                                               .seed = p.seed,
-                                               .frame_index = 0,
-                                               .frames_kept = 0,
-                                               .traced_px = glm::ivec2(1),
-                                               .shown_px = glm::ivec2(1)});
-    p.frame_block.upload(std::span(&block, 1));
-    p.frame_block.bind_uniform(BINDING_FRAME);
-    const PickPass::Result result = p.built(p.pick[through_water], through_water)
-                                        .record({.cells = simulation.cells(), .dir = dir}, p.timers);
-    return {.hit = result.cell.w != 0,
-            .cell = glm::ivec3(result.cell),
-            .normal = glm::ivec3(result.normal),
-            .byte = static_cast<std::uint8_t>(result.normal.w)};
 }
 
 ImageRgba8 Renderer::read_picture() const {
@@ -366,6 +341,7 @@ std::vector<std::string> Renderer::poll_reload() {
         poll(parts_->pick[i]);
     }
     poll(parts_->accumulate);
+    poll(parts_->antialias);
     if (parts_->emitters) parts_->emitters->poll_reload(messages);
     if (!messages.empty()) parts_->has_history = false;
     return messages;

@@ -6,6 +6,7 @@
 
 #include "app/albedo_textures.h"
 #include "app/error_estimate.h"
+#include "app/frame_block.h"
 #include "app/render_targets.h"
 #include "app/renderer.h"
 #include "app/stopwatch.h"
@@ -13,6 +14,7 @@
 #include "app/world_contents.h"
 #include "gl/buffer.h"
 #include "passes/accumulate_pass.h"
+#include "passes/antialias_pass.h"
 #include "passes/display_pass.h"
 #include "passes/emitters.h"
 #include "passes/filter_pass.h"
@@ -66,6 +68,7 @@ struct Renderer::Parts {
     std::optional<TemporalPass> temporal[2][2][2];  // [blend][moments][upsample]
     std::optional<FilterPass> filter[2];            // [gaussian]
     std::optional<AccumulatePass> accumulate;
+    std::optional<AntialiasPass> antialias;
     std::optional<DisplayPass> display[2][2];  // [radiance only][refined]
     std::optional<PickPass> pick[2];           // [through water]
 
@@ -120,6 +123,8 @@ struct Renderer::Parts {
     bool retrace(const Simulation& simulation, const TracePass& pass);
     const gl::Texture& accumulate_exact();
     const gl::Texture& reproject_and_filter(const Simulation& simulation, bool retraced);
+    // Edges smoothed, where it is asked for: `radiance` is of the pixels whose surfaces the last frame keeps.
+    const gl::Texture& smooth_edges(const Simulation& simulation, const gl::Texture& radiance);
     void render_preset(const Simulation& simulation, const Settings& now, glm::ivec2 size_px);
     void show_picture(const gl::Framebuffer& target, bool raw);
     void show(const gl::Framebuffer& target, bool raw);

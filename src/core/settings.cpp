@@ -56,7 +56,8 @@ constexpr PresetRow presets[] = {{"max_bounces", {"8", "16", "24", "64", "1024"}
                                  {"retrace_changes", {"false", "true", "true", "true", "false"}},
                                  {"refine_at_rest", {"false", "true", "true", "true", "false"}},
                                  {"filter", {"gaussian", "edge_aware", "edge_aware", "edge_aware", "none"}},
-                                 {"filter_passes", {"1", "1", "1", "1", "1"}}};
+                                 {"filter_passes", {"1", "1", "1", "1", "1"}},
+                                 {"antialiasing", {"0", "0", "4", "4", "0"}}};
 
 double parse_number(const SettingInfo& info, std::string_view text) {
     double value = 0;

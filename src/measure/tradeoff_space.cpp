@@ -88,7 +88,8 @@ std::span<const Coordinate> tradeoff_coordinates() {
                                              {"history_alpha", {"0.03", "0.1", "0.3"}, true},
                                              {"history_cap", {"4", "8", "16", "32", "48", "96", "256"}, true},
                                              {"filter", {"none", "gaussian", "edge_aware"}, false},
-                                             {"filter_passes", {"1", "2", "3"}, true}};
+                                             {"filter_passes", {"1", "2", "3"}, true},
+                                             {"antialiasing", {"0", "4", "8"}, false}};
     return coordinates;
 }
 
