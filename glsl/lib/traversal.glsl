@@ -98,7 +98,7 @@ Step step_of(uvec2 word, ivec3 cell, int room_shift) {
     next.low = is_clear ? BRICK_SIDE - 1 : (block & 0x330033u) == 0u ? 1 : 0;
     // Of room_up: to the brick above the quarter.
     int up = (((1 << level) + 3) >> 2) << BRICK_SHIFT;
-    next.reach = is_clear ? ivec3(across, up, across) - (BRICK_SIDE - 1) : ivec3(1);
+    next.reach = ivec3(across, up, across) - (BRICK_SIDE - 1);  // 1 in a brick that is not clear
     next.may_meet = !is_clear && ((block >> (at & 21)) & 1u) != 0u;
     return next;
 }
