@@ -49,10 +49,8 @@ void draw_overlay(const OverlayInputs& in) {
              in.census.voxels[MATERIAL_WATER]);
         line("active bricks {}", in.active_bricks);
         line("sand {}", in.census.voxels[MATERIAL_SAND]);
-        if (in.error)
-            line("samples {}, error (relMSE) about {:.2g}", in.samples, *in.error);
-        else
-            line("samples {}", in.samples);
+        line("samples {}", in.samples);
+        if (in.error) line("error {:.2g} (relMSE)", *in.error);
         if (in.rejected_samples > 0) line("rejected samples {}", in.rejected_samples);
         line("{} {} {}{}", material_name(in.brush.material),
              in.brush.shape == BrushShape::Sphere ? "sphere" : "cube", in.brush.radius_vox,

@@ -117,7 +117,6 @@ void draw_world(const Panels::Inputs& inputs, Actions& actions) {
         ImGui::EndCombo();
     }
     tooltip("Loads a built-in scene with its camera, water, sun and sky; what was built here is lost.");
-    ImGui::SameLine();
     actions.screenshot |=
         button("Picture",
                "Write tarn-0001.png and its settings beside it, in the folder that Tarn was started "
@@ -197,6 +196,7 @@ void Panels::draw_settings(const Inputs& inputs, Actions& actions) {
         draw_brush(inputs, actions);
         ImGui::Separator();
         draw_world(inputs, actions);
+        ImGui::SameLine();
         if (button("Reset all", "Every setting below as the scene and the program give it, the camera too."))
             inputs.settings = inputs.defaults;
         ImGui::SameLine();

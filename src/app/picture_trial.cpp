@@ -42,7 +42,7 @@ void Renderer::Parts::draw_trial_sample(const Simulation& simulation, const Trac
     frame_block.upload(std::span(&trial.block, 1));
     TracePass::Inputs inputs = trace_inputs(simulation, pass.features());
     inputs.stride = static_cast<std::uint32_t>(stride);
-    pass.record(inputs, {.target = target}, timers);
+    pass.record(inputs, {.target = target, .timed_as = "trial"}, timers);
 }
 
 void Renderer::keep_variance(bool on) {

@@ -58,7 +58,7 @@ void TracePass::draw(const Inputs& inputs, const Outputs& outputs) const {
 
 void TracePass::record(const Inputs& inputs, const Outputs& outputs, gl::Timers& timers) const {
     CHECK(!features_.emitters || inputs.emitters != nullptr);
-    const auto scope = timers.scope("trace");
+    const auto scope = timers.scope(outputs.timed_as);
     draw(inputs, outputs);
 }
 

@@ -50,6 +50,7 @@ class TracePass {
     struct Outputs {
         const gl::Framebuffer& target;   // radiance, surface; with count: counts
         std::optional<gl::Rows> rows{};  // that are traced; the others keep what they hold
+        const char* timed_as = "trace";
     };
 
     explicit TracePass(const TraceFeatures& features);

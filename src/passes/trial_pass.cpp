@@ -26,7 +26,7 @@ void TrialPass::discard() {
 
 void TrialPass::record(const Inputs& inputs, gl::Timers& timers) {
     CHECK(!pending());
-    const auto scope = timers.scope("error");
+    const auto scope = timers.scope("trial");
     inputs.picture.bind(BINDING_FIRST_INPUT);
     inputs.sample_a.bind(BINDING_FIRST_INPUT + 1);
     inputs.sample_b.bind(BINDING_FIRST_INPUT + 2);

