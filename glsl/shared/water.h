@@ -12,7 +12,7 @@
 // Side of the cubes, in voxels, by which the blocks of the block tier run.
 #define BLOCK_TILE 8
 
-// Ticks for which a brick and its 26 neighbours must lie unchanged before it sleeps. Every offset of a block along
+// Ticks (steps, where a tick has several) for which a brick and its 26 neighbours must lie unchanged before it sleeps. Every offset of a block along
 // an axis comes up within 16 ticks, every third tick is a diagonal one.
 #define SLEEP_TICKS 64
 

@@ -55,7 +55,7 @@ struct Simulation::Parts {
           census(take_census(scene.cells)) {}
 
     std::uint32_t stamp() const { return static_cast<std::uint32_t>(version); }
-    std::uint32_t tick32() const { return static_cast<std::uint32_t>(tick); }
+    std::uint32_t step32() const { return static_cast<std::uint32_t>(step); }
     void update_bricks() {
         bricks.record({.cells = cells, .activity = water.activity(), .version = stamp()},
                       {.brick_rooms = brick_rooms}, timers);
@@ -78,6 +78,7 @@ struct Simulation::Parts {
     CensusPass census_pass;
 
     std::uint64_t tick = 0;
+    std::uint64_t step = 0;  // of the water: Settings::water_substeps in a tick
     bool always_awake = false;
     std::uint64_t version = 0;
     EditTotals edit_totals;
@@ -92,7 +93,7 @@ void Simulation::Parts::load(const Cells& from) {
     cells.upload(std::span<const std::uint8_t>(from.bytes()), byte_layout, byte_type);
     const std::uint32_t all = stamp();
     glClearTexImage(brick_changed.name(), 0, GL_RED_INTEGER, GL_UNSIGNED_INT, &all);
-    water.load(from, tick32());
+    water.load(from, step32());
     update_bricks();
 }
 
@@ -121,7 +122,7 @@ void Simulation::Parts::mark_bricks(const Box& bounds, const std::vector<std::ui
                 mark = 1;
                 touched.push_back(static_cast<std::uint32_t>(brick.x + all.x * (brick.y + all.y * brick.z)));
             }
-    water.edited({.bricks = touched, .before = before, .after = after, .tick = tick32(), .version = stamp()},
+    water.edited({.bricks = touched, .before = before, .after = after, .step = step32(), .version = stamp()},
                  brick_changed);
 }
 
@@ -148,12 +149,16 @@ void Simulation::step(int n, const Settings& settings) {
         std::optional<gl::Timers::Scope> scope;
         if (!p.water.flows()) scope.emplace(p.timers, "step");
         for (int i = 0; i < n; ++i, ++p.tick)
-            p.water.tick({.tier = settings.water_tier,
-                          .film_threshold = settings.film_threshold,
-                          .always_awake = p.always_awake,
-                          .tick = p.tick32(),
-                          .version = p.stamp()},
-                         {.cells = p.cells, .brick_changed = p.brick_changed}, p.timers);
+            for (int k = 0; k < settings.water_substeps; ++k, ++p.step)
+                p.water.step({.tier = settings.water_tier,
+                              .film_threshold = settings.film_threshold,
+                              .pressure_sweeps = settings.pressure_sweeps,
+                              .always_awake = p.always_awake,
+                              .springs_run = k == 0,
+                              .drains_run = k + 1 == settings.water_substeps,
+                              .step = p.step32(),
+                              .version = p.stamp()},
+                             {.cells = p.cells, .brick_changed = p.brick_changed}, p.timers);
     }
     p.update_bricks();
 }
@@ -283,13 +288,14 @@ std::uint64_t Simulation::tick() const {
 }
 void Simulation::set_tick(std::uint64_t tick) {
     parts_->tick = tick;
-    parts_->water.wake_all(parts_->tick32());
+    parts_->step = tick;
+    parts_->water.wake_all(parts_->step32());
 }
 void Simulation::set_always_awake(bool on) {
     parts_->always_awake = on;
 }
 void Simulation::put_to_sleep() {
-    parts_->water.sleep_all(parts_->tick32());
+    parts_->water.sleep_all(parts_->step32());
 }
 std::uint32_t Simulation::active_bricks() const {
     return parts_->water.active_bricks();

@@ -33,13 +33,13 @@ Water::Water(const Scene& scene)
       drains_(scene.drains),
       activity_(size_vox_) {}
 
-void Water::load(const Cells& cells, std::uint32_t tick) {
+void Water::load(const Cells& cells, std::uint32_t step) {
     may_hold_water_ = holds_water(cells.bytes()) ||
                       std::any_of(springs_.begin(), springs_.end(),
                                   [](const Spring& s) { return s.material == MATERIAL_WATER; });
     may_confine_ = has_overhang(cells);
     head_.reset();
-    activity_.wake_all(tick);
+    activity_.wake_all(step);
     activity_.log_all();
 }
 
@@ -47,52 +47,53 @@ void Water::edited(const Edited& edit, const gl::Texture& brick_changed) {
     may_hold_water_ = may_hold_water_ || holds_water(edit.after);
     for (std::size_t i = 0; i < edit.after.size() && !may_confine_; ++i)
         may_confine_ = is_fixed(edit.before[i]) != is_fixed(edit.after[i]);
-    activity_.touch(edit.bricks, edit.tick, edit.version, brick_changed);
+    activity_.touch(edit.bricks, edit.step, edit.version, brick_changed);
 }
 
-void Water::tick(const Inputs& in, const Outputs& out, gl::Timers& timers) {
+void Water::step(const Inputs& in, const Outputs& out, gl::Timers& timers) {
     // What was at rest under one rule need not be under another.
     const bool other_rule = last_ && (last_->tier != in.tier || last_->film_threshold != in.film_threshold);
-    if (other_rule || (in.always_awake && !activity_.all_awake(in.tick))) activity_.wake_all(in.tick);
+    if (other_rule || (in.always_awake && !activity_.all_awake(in.step))) activity_.wake_all(in.step);
     last_ = in;
     if (in.tier != WaterTier::Pressure) head_.reset();
     if (in.tier == WaterTier::Pressure && !head_ && may_hold_water_ && may_confine_) head_.emplace(size_vox_);
 
     if (in.tier == WaterTier::Block) {
-        activity_.begin_tick(in.tick, {{BlockStepPass::grid(seed_, in.tick)}});
+        activity_.begin_tick(in.step, {{BlockStepPass::grid(seed_, in.step)}});
     } else {
-        activity_.begin_tick(in.tick, LevelStepPass::grids(seed_, in.tick));
+        activity_.begin_tick(in.step, LevelStepPass::grids(seed_, in.step));
     }
     if (head_) {
         std::optional<gl::Timers::Scope> scope;
         if (flows()) scope.emplace(timers, "head");
         head_->record({.cells = out.cells,
-                       .tick = in.tick,
+                       .tick = in.step,
                        .film_threshold = in.film_threshold,
+                       .sweeps = in.pressure_sweeps,
                        .activity = activity_});
     }
     const FlowPass::Inputs flow_in{
-        .seed = seed_, .tick = in.tick, .version = in.version, .activity = activity_};
+        .seed = seed_, .tick = in.step, .version = in.version, .activity = activity_};
     const FlowPass::Outputs flow_out{.cells = out.cells, .brick_changed = out.brick_changed};
-    if (!springs_.empty()) {
+    if (!springs_.empty() && in.springs_run) {
         const auto scope = timers.scope("flow");
         flow_.record_springs(springs_, flow_in, flow_out);
     }
     {
         std::optional<gl::Timers::Scope> scope;
         if (flows()) scope.emplace(timers, "step");
-        step(in, out);
+        move_cells(in, out);
     }
-    if (!drains_.empty()) {
+    if (!drains_.empty() && in.drains_run) {
         const auto scope = timers.scope("flow");
         flow_.record_drains(drains_, flow_in, flow_out);
     }
 }
 
-void Water::step(const Inputs& in, const Outputs& out) {
+void Water::move_cells(const Inputs& in, const Outputs& out) {
     if (in.tier == WaterTier::Block) {
         block_step_.record({.seed = seed_,
-                            .tick = in.tick,
+                            .tick = in.step,
                             .film_threshold = in.film_threshold,
                             .version = in.version,
                             .activity = activity_},
@@ -100,7 +101,7 @@ void Water::step(const Inputs& in, const Outputs& out) {
         return;
     }
     level_step_.record({.seed = seed_,
-                        .tick = in.tick,
+                        .tick = in.step,
                         .film_threshold = in.film_threshold,
                         .version = in.version,
                         .activity = activity_},

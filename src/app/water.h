@@ -23,9 +23,11 @@ class Water {
   public:
     struct Inputs {
         WaterTier tier;
-        int film_threshold;  // quanta
-        bool always_awake;   // nothing sleeps: for measurements
-        std::uint32_t tick;
+        int film_threshold;   // quanta
+        int pressure_sweeps;  // of the head
+        bool always_awake;    // nothing sleeps: for measurements
+        bool springs_run, drains_run;
+        std::uint32_t step;     // one more each time
         std::uint32_t version;  // stamped on bricks whose cells change
     };
     struct Outputs {
@@ -37,20 +39,20 @@ class Water {
     explicit Water(const Scene& scene);
 
     // All cells are new: everything wakes and counts as changed.
-    void load(const Cells& cells, std::uint32_t tick);
-    void wake_all(std::uint32_t tick) { activity_.wake_all(tick); }
-    void sleep_all(std::uint32_t tick) { activity_.sleep_all(tick); }
-    // An edit before `tick` that makes `version` changed cells of `bricks`, at least one of each; `before`
+    void load(const Cells& cells, std::uint32_t step);
+    void wake_all(std::uint32_t step) { activity_.wake_all(step); }
+    void sleep_all(std::uint32_t step) { activity_.sleep_all(step); }
+    // An edit before `step` that makes `version` changed cells of `bricks`, at least one of each; `before`
     // and `after` are bytes of one box.
     struct Edited {
         const std::vector<std::uint32_t>& bricks;  // x fastest, then y, then z
         const std::vector<std::uint8_t>& before;
         const std::vector<std::uint8_t>& after;
-        std::uint32_t tick, version;
+        std::uint32_t step, version;
     };
     void edited(const Edited& edit, const gl::Texture& brick_changed);
 
-    void tick(const Inputs& in, const Outputs& out, gl::Timers& timers);
+    void step(const Inputs& in, const Outputs& out, gl::Timers& timers);
 
     bool flows() const { return !springs_.empty() || !drains_.empty(); }
     const FlowPass& flow() const { return flow_; }
@@ -60,7 +62,7 @@ class Water {
     void poll_reload(std::vector<std::string>& messages);
 
   private:
-    void step(const Inputs& in, const Outputs& out);
+    void move_cells(const Inputs& in, const Outputs& out);
 
     std::uint32_t seed_;
     glm::ivec3 size_vox_;

@@ -23,6 +23,11 @@
            "(also rises in communicating vessels).")                                                         \
     INT(film_threshold, 3, 1, 16, SIMULATION, NONE,                                                          \
         "Quanta (sixteenths of a voxel) of water per cell that stay as a film instead of spreading.")        \
+    INT(water_substeps, 1, 1, 8, SIMULATION, NONE,                                                           \
+        "Steps of water and sand in a tick: more flow and level faster, at as many times the cost. Springs " \
+        "and drains keep to ticks.")                                                                         \
+    INT(pressure_sweeps, 1, 1, 16, SIMULATION, NONE,                                                         \
+        "Sweeps of the head in each step under pressure: more let it reach through vessels sooner.")         \
     CHOICE(Quality, quality, Balanced, LIGHT, NONE, "Preset of the settings below, from fast to exact.")     \
     INT(max_bounces, 24, 0, 1024, LIGHT, IMAGE,                                                              \
         "Scatterings along a path before it ends (refraction counts).")                                      \

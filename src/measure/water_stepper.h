@@ -24,7 +24,7 @@ class WaterStepper {
 };
 
 struct StepperOptions {
-    Settings settings;   // water_tier, film_threshold
+    Settings settings;   // of the water
     bool awake = false;  // every brick is stepped, at rest or not
 };
 

@@ -22,11 +22,14 @@ struct Rule {
     const char* name;
     std::vector<const char*> set;
 };
-// What of the water is a setting: its tier, and how thin a film stays.
+// What of the water is a setting: its tier, how thin a film stays, how often it moves and its head is swept.
 const Rule rules[] = {{"block", {"water_tier=block"}},
                       {"level", {"water_tier=level"}},
                       {"level, film 1", {"water_tier=level", "film_threshold=1"}},
-                      {"pressure", {"water_tier=pressure"}}};
+                      {"level, 2 steps", {"water_tier=level", "water_substeps=2"}},
+                      {"pressure", {"water_tier=pressure"}},
+                      {"pressure, 4 sweeps", {"water_tier=pressure", "pressure_sweeps=4"}},
+                      {"pressure, 2 steps", {"water_tier=pressure", "water_substeps=2"}}};
 
 Settings settings_of(const Rule& rule) {
     Settings settings;
@@ -95,10 +98,10 @@ std::vector<WaterTradeRow> measure_water_trade(bool quick,
 }
 
 std::string water_trade_text(std::span<const WaterTradeRow> rows) {
-    std::string text = fmt::format("{:<9} {:<14} {:>8} {:>11} {:>10} {:>14} {:>12}\n", "scenario", "rule",
+    std::string text = fmt::format("{:<9} {:<18} {:>8} {:>11} {:>10} {:>14} {:>12}\n", "scenario", "rule",
                                    "tick_ms", "level from", "at rest", "level error", "ms to level");
     for (const WaterTradeRow& r : rows)
-        text += fmt::format("{:<9} {:<14} {:>8.2f} {:>11} {:>10} {:>10.3f} vox {:>12}\n", r.scenario, r.rule,
+        text += fmt::format("{:<9} {:<18} {:>8.2f} {:>11} {:>10} {:>10.3f} vox {:>12}\n", r.scenario, r.rule,
                             r.tick_ms, tick_text(r.level_from_tick), tick_text(r.rest_from_tick),
                             r.level_error, tick_text(r.level_from_tick * r.tick_ms));
     return text;

@@ -38,15 +38,17 @@ void HeadFieldPass::record(const Inputs& in) {
     publish_.set("size_vox", size_vox);
     sweep_.set("size_vox", size_vox);
     sweep_.set("film_threshold", in.film_threshold);
-    clock_.dispatch({1, 1, 1});
-    barrier();
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, clock_state_.name());
-    publish_.use();
-    glDispatchComputeIndirect(publish_arguments);
-    barrier();
-    sweep_.use();
-    glDispatchComputeIndirect(0);
-    barrier();
+    for (int i = 0; i < in.sweeps; ++i) {
+        clock_.dispatch({1, 1, 1});
+        barrier();
+        publish_.use();
+        glDispatchComputeIndirect(publish_arguments);
+        barrier();
+        sweep_.use();
+        glDispatchComputeIndirect(0);
+        barrier();
+    }
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
 }
 

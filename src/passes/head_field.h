@@ -18,7 +18,8 @@ class HeadFieldPass {
     struct Inputs {
         const gl::Texture& cells;  // R8UI
         std::uint32_t tick;
-        int film_threshold;            // quanta
+        int film_threshold;  // quanta
+        int sweeps;
         const ActivityPass& activity;  // begun for this tick; nothing has changed since
     };
 

@@ -52,16 +52,16 @@ PressureField::PressureField(glm::ivec3 size_vox)
       acting_(std::size_t{1} * size_vox.x * size_vox.y * size_vox.z),
       building_(acting_.size()) {}
 
-void PressureField::tick(const Cells& cells, Activity& activity, int film_threshold) {
+void PressureField::sweep(const Cells& cells, Activity& activity, int film_threshold) {
     if (sweeps_ > 0) quiet_sweeps_ = found_ ? 0 : quiet_sweeps_ + 1;
     if (quiet_sweeps_ >= 3 || sweeps_ >= HEAD_SWEEPS_MAX) publish(activity);
     // Up and down first: that is where the surfaces are.
     constexpr int axes[] = {1, 0, 2};
-    found_ = sweep(cells, axes[sweeps_ % 3], sweeps_ == 0, film_threshold);
+    found_ = sweep_lines(cells, axes[sweeps_ % 3], sweeps_ == 0, film_threshold);
     ++sweeps_;
 }
 
-bool PressureField::sweep(const Cells& cells, int axis, bool seed, int film_threshold) {
+bool PressureField::sweep_lines(const Cells& cells, int axis, bool seed, int film_threshold) {
     const int u = (axis + 1) % 3;
     const int v = (axis + 2) % 3;
     bool found = false;

@@ -38,15 +38,15 @@ class PressureField {
 
     std::uint32_t acting(glm::ivec3 cell) const { return acting_[index(cell)]; }
     void set_acting(glm::ivec3 cell, std::uint32_t head) { acting_[index(cell)] = head; }
-    // At the start of a tick: one sweep; wakes bricks in which a new head moves water. Not called while
-    // nothing is awake.
-    void tick(const Cells& cells, Activity& activity, int film_threshold);
+    // At the start of a step, once or more often: one sweep; wakes bricks in which a new head moves water.
+    // Not called while nothing is awake.
+    void sweep(const Cells& cells, Activity& activity, int film_threshold);
 
   private:
     std::size_t index(glm::ivec3 cell) const {
         return cell.x + std::size_t{1} * size_.x * (cell.y + std::size_t{1} * size_.y * cell.z);
     }
-    bool sweep(const Cells& cells, int axis, bool seed, int film_threshold);
+    bool sweep_lines(const Cells& cells, int axis, bool seed, int film_threshold);
     void publish(Activity& activity);
 
     glm::ivec3 size_;

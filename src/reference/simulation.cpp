@@ -11,10 +11,13 @@ Simulation::Simulation(const Scene& scene, std::uint64_t tick)
       springs_(scene.springs),
       drains_(scene.drains),
       tick_(tick),
+      step_(tick),
       activity_(cells_.size_vox()) {}
 
 void Simulation::step(int n, const Settings& settings) {
-    for (int i = 0; i < n; ++i) tick_once(settings);
+    for (int i = 0; i < n; ++i, ++tick_)
+        for (int k = 0; k < settings.water_substeps; ++k, ++step_)
+            step_once(settings, k == 0, k + 1 == settings.water_substeps);
 }
 
 void Simulation::write(glm::ivec3 cell, std::uint8_t byte) {
@@ -34,8 +37,8 @@ void Simulation::noting_changes(const Act& act) {
                 if (cells_.at({x, y, z}) != before.at({x, y, z})) activity_.changed({x, y, z});
 }
 
-void Simulation::tick_once(const Settings& settings) {
-    const auto tick = static_cast<std::uint32_t>(tick_);
+void Simulation::step_once(const Settings& settings, bool springs_run, bool drains_run) {
+    const auto step = static_cast<std::uint32_t>(step_);
     const bool other_rule =
         tier_ && (*tier_ != settings.water_tier || film_threshold_ != settings.film_threshold);
     if (other_rule) activity_.wake_all();
@@ -45,14 +48,15 @@ void Simulation::tick_once(const Settings& settings) {
     if (*tier_ == WaterTier::Pressure && !field_) field_.emplace(cells_.size_vox());
 
     activity_.begin_tick();
-    if (field_ && activity_.any_awake()) field_->tick(cells_, activity_, film_threshold_);
-    if (!springs_.empty()) noting_changes([&] { springs_tick(cells_, springs_, seed_, tick, flow_); });
+    for (int i = 0; field_ && activity_.any_awake() && i < settings.pressure_sweeps; ++i)
+        field_->sweep(cells_, activity_, film_threshold_);
+    if (springs_run && !springs_.empty())
+        noting_changes([&] { springs_tick(cells_, springs_, seed_, step, flow_); });
     if (*tier_ == WaterTier::Block)
-        water_block_tick(cells_, seed_, tick, film_threshold_, activity_);
+        water_block_tick(cells_, seed_, step, film_threshold_, activity_);
     else
-        water_level_tick(cells_, seed_, tick, film_threshold_, activity_, field_ ? &*field_ : nullptr);
-    if (!drains_.empty()) noting_changes([&] { drains_tick(cells_, drains_, flow_); });
-    ++tick_;
+        water_level_tick(cells_, seed_, step, film_threshold_, activity_, field_ ? &*field_ : nullptr);
+    if (drains_run && !drains_.empty()) noting_changes([&] { drains_tick(cells_, drains_, flow_); });
 }
 
 }  // namespace tarn::reference

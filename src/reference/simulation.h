@@ -17,7 +17,7 @@ class Simulation {
   public:
     explicit Simulation(const Scene& scene, std::uint64_t tick = 0);
 
-    // n ticks under settings.water_tier and film_threshold.
+    // n ticks under settings.water_tier, film_threshold, water_substeps and pressure_sweeps.
     void step(int n, const Settings& settings);
     // Between ticks.
     void write(glm::ivec3 cell, std::uint8_t byte);
@@ -26,11 +26,11 @@ class Simulation {
     const Cells& cells() const { return cells_; }
     std::uint64_t tick() const { return tick_; }
     const FlowTally& flow() const { return flow_; }
-    // Bricks with a change in the last SLEEP_TICKS ticks.
+    // Bricks with a change in the last SLEEP_TICKS steps.
     std::size_t active_bricks() const { return activity_.active_bricks(); }
 
   private:
-    void tick_once(const Settings& settings);
+    void step_once(const Settings& settings, bool springs_run, bool drains_run);
     // Runs `act`, which knows no activity, and tells what it changed.
     template <typename Act>
     void noting_changes(const Act& act);
@@ -39,7 +39,7 @@ class Simulation {
     std::uint32_t seed_;
     std::vector<Spring> springs_;
     std::vector<Drain> drains_;
-    std::uint64_t tick_;
+    std::uint64_t tick_, step_;
     FlowTally flow_;
     Activity activity_;
     std::optional<PressureField> field_;

@@ -20,13 +20,15 @@ FlowTally tally_of(const FlowTotals& t) {
     return {t.sprung_water_quanta, t.drained_water_quanta, t.sprung_sand_voxels, t.drained_sand_voxels};
 }
 
-void expect_equal_run(const Scene& scene, WaterTier tier, std::uint64_t first_tick, int ticks) {
+void expect_equal_run(const Scene& scene, WaterTier tier, std::uint64_t first_tick, int ticks,
+                      int substeps = 1) {
     SCOPED_TRACE(choice_names<WaterTier>()[static_cast<std::size_t>(tier)]);
     gl::Timers timers;
     Simulation simulation(scene, timers);
     simulation.set_tick(first_tick);
     Settings settings;
     settings.water_tier = tier;
+    settings.water_substeps = substeps;
     reference::Simulation reference(scene, first_tick);
     const Census start = take_census(scene.cells);
     for (int i = 0; i < ticks; ++i) {
@@ -72,6 +74,10 @@ TEST_F(FlowTest, equals_reference_in_bytes_and_counts) {
                 if (HasFatalFailure()) return;
             }
         }
+}
+
+TEST_F(FlowTest, springs_and_drains_run_once_a_tick_of_several_steps) {
+    expect_equal_run(flowing_scene({31, 17, 22}, Soup::Layers), WaterTier::Pressure, 0, 30, 3);
 }
 
 TEST_F(FlowTest, equals_reference_across_the_tick_counters_wrap) {

@@ -24,19 +24,23 @@ struct Run {
     int ticks = 100;
     int ticks_between_looks = 10;
     int film_threshold = 3;
+    int substeps = 1, sweeps = 1;
 };
 
 void expect_equal_steps(WaterTier tier, const Run& run) {
-    SCOPED_TRACE(fmt::format("{}, size {}x{}x{}, soup {}, seed {}, from tick {}, film {}",
-                             choice_names<WaterTier>()[static_cast<std::size_t>(tier)], run.size_vox.x,
-                             run.size_vox.y, run.size_vox.z, static_cast<int>(run.soup), run.seed,
-                             run.first_tick, run.film_threshold));
+    SCOPED_TRACE(
+        fmt::format("{}, size {}x{}x{}, soup {}, seed {}, from tick {}, film {}, substeps {}, sweeps {}",
+                    choice_names<WaterTier>()[static_cast<std::size_t>(tier)], run.size_vox.x, run.size_vox.y,
+                    run.size_vox.z, static_cast<int>(run.soup), run.seed, run.first_tick, run.film_threshold,
+                    run.substeps, run.sweeps));
     Scene scene;
     scene.seed = run.seed;
     scene.cells = make_soup(run.size_vox, run.soup, run.seed * 977 + 13);
     Settings settings;
     settings.water_tier = tier;
     settings.film_threshold = run.film_threshold;
+    settings.water_substeps = run.substeps;
+    settings.pressure_sweeps = run.sweeps;
     gl::Timers timers;
     Simulation simulation(scene, timers);
     simulation.set_tick(run.first_tick);
@@ -109,6 +113,18 @@ TEST_F(WaterTest, equals_reference_across_the_tick_counters_wrap) {
                                       .ticks = 20,
                                       .ticks_between_looks = 1});
         }
+}
+
+TEST_F(WaterTest, equals_reference_for_several_steps_and_sweeps_in_a_tick) {
+    for (const WaterTier tier : tiers)
+        for (const glm::ivec2 effort : {glm::ivec2(3, 1), glm::ivec2(1, 5), glm::ivec2(2, 2)})
+            expect_equal_steps(tier, {.size_vox = {23, 19, 21},
+                                      .soup = Soup::Layers,
+                                      .seed = 5,
+                                      .ticks = 120,
+                                      .ticks_between_looks = 30,
+                                      .substeps = effort.x,
+                                      .sweeps = effort.y});
 }
 
 TEST_F(WaterTest, equals_reference_for_every_film_threshold) {

@@ -108,7 +108,7 @@ TEST(PressureField, head_falls_along_its_way_and_knows_a_ceiling) {
     reference::PressureField field(cells.size_vox());
     for (int tick = 0; tick < 60; ++tick) {
         activity.begin_tick();
-        field.tick(cells, activity, film);
+        field.sweep(cells, activity, film);
     }
     for (int x = 0; x < 12; ++x) {
         const std::uint32_t head = field.acting({x, 0, 0});
