@@ -95,7 +95,11 @@ void walk(ivec3 brick, int medium, int way, bool rises, int first, int last, int
 }
 
 void main() {
-    ivec2 at = ivec2(gl_GlobalInvocationID.xy);
+    // Even rows of groups, then odd ones: llvmpipe gives each thread a run of groups, and a change is often all in one.
+    uint even = (gl_NumWorkGroups.y + 1u) / 2u;
+    uint group = gl_WorkGroupID.y;
+    uint row = group < even ? 2u * group : 2u * (group - even) + 1u;
+    ivec2 at = ivec2(gl_GlobalInvocationID.x, row * gl_WorkGroupSize.y + gl_LocalInvocationID.y);
 #if AXIS == 1
     ivec3 brick = ivec3(at.x, 0, at.y);
 #endif
