@@ -36,9 +36,6 @@ void draw_overlay(const OverlayInputs& in) {
     ImGui::SetNextWindowBgAlpha(0.45f);
     if (ImGui::Begin("##overlay", nullptr, passive_window)) {
         line("frame {:.1f} ms", in.frame_ms);
-        for (const gl::PassTime& pass : in.passes) {
-            if (pass.mean_ms >= shown_ms_min) line("  {} {:.2f}", pass.name, pass.mean_ms);
-        }
         if (in.paused)
             line("paused, tick {}", in.tick);
         else
@@ -56,6 +53,10 @@ void draw_overlay(const OverlayInputs& in) {
              in.brush.shape == BrushShape::Sphere ? "sphere" : "cube", in.brush.radius_vox,
              in.brush.overwrite ? ", overwrites" : "");
         line("H help, O settings");
+        // Last: they may outgrow a small window.
+        for (const gl::PassTime& pass : in.passes) {
+            if (pass.mean_ms >= shown_ms_min) line("  {} {:.2f}", pass.name, pass.mean_ms);
+        }
     }
     ImGui::End();
 }

@@ -85,6 +85,8 @@ void Renderer::measure_error(const Simulation& simulation) {
     const bool sure = (exact || refined) && samples() >= samples_sure;
     const TracePass* pass = sure ? nullptr : p.trial_program(simulation);
     if (pass != nullptr) {
+        // Two samples a frame: what is estimated follows from the frame alone.
+        p.trial.index = static_cast<std::uint32_t>(2 * p.frame_index);
         if (pass->features().emitters) p.update_emitters(simulation);
         picture.draw_sample = [&, pass](const gl::Framebuffer& to, int stride) {
             p.draw_trial_sample(simulation, *pass, to, stride);

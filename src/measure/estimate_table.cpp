@@ -42,8 +42,11 @@ std::string estimate_csv(std::span<const EstimateRow> rows) {
 }
 
 std::string estimate_text(std::span<const EstimateRow> rows) {
-    std::string text = "The estimated error against the true one. It is that of some thousand pixels against two fresh samples of\n"
-        "exact each, up to eight such trials together; where they are unsure, and in exact from 64 samples on, the\n"
+    std::string text =
+        "The estimated error against the true one. It is that of some thousand pixels against two fresh "
+        "samples of\n"
+        "exact each, up to eight such trials together; where they are unsure, and in exact from 64 samples "
+        "on, the\n"
         "spread of the picture's own frames:\n";
     const auto line = [&](const std::string& name, const std::function<bool(const EstimateRow&)>& counts) {
         double sum = 0;
@@ -83,7 +86,10 @@ std::string estimate_text(std::span<const EstimateRow> rows) {
 
 Drawing draw_estimates(std::span<const EstimateRow> rows) {
     PlotPanel panel{.title = "a picture's error as the overlay estimates it, and as it is",
-                    .x = {.label = "estimated relMSE, by fresh exact samples in some pixels", .log = true, .low = 1e30, .high = 0},
+                    .x = {.label = "estimated relMSE, by fresh exact samples in some pixels",
+                          .log = true,
+                          .low = 1e30,
+                          .high = 0},
                     .y = {.label = "true relMSE", .log = true, .low = 1e30, .high = 0}};
     PlotSeries exact{.name = "exact", .line = false, .dots = true, .dot_radius = 3};
     PlotSeries others{
