@@ -31,6 +31,9 @@ bool is_idle(const Configuration& c, std::string_view key) {
     if (key == "history_cap") return value_of(c, "history") != "count";
     if (key == "history_alpha") return value_of(c, "history") != "blend";
     if (key == "filter_passes") return value_of(c, "filter") == "none";
+    if (key == "antialiasing") return value_of(c, "jitter") == "true";
+    if (key == "guided_upsampling") return value_of(c, "resolution_scale") == "1";
+    if (key == "retrace_changes") return value_of(c, "history") != "count";
     if (key == "sun_through_water") return value_of(c, "light_sampling") == "none";
     return false;
 }
@@ -69,27 +72,30 @@ std::vector<std::string> steps_along(const Coordinate& coordinate, const std::st
 }  // namespace
 
 std::span<const Coordinate> tradeoff_coordinates() {
-    static const Coordinate coordinates[] = {{"max_bounces", {"2", "4", "8", "16", "24", "64"}, true},
-                                             {"max_diffuse_bounces", {"0", "1", "2", "3", "6", "16"}, true},
-                                             {"max_distance_vox", {"64", "256", "4096"}, true},
-                                             {"samples_per_pixel", {"1", "2", "4", "8"}, true},
-                                             {"resolution_scale", {"0.25", "0.35", "0.5", "0.7", "1"}, true},
-                                             {"traversal", {"voxel", "distance"}, false},
-                                             {"light_sampling", {"none", "lights", "all"}, false},
-                                             {"diffuse_sampling", {"cosine", "uniform"}, false},
-                                             {"sun_through_water", {"false", "true"}, false},
-                                             {"straight_sunlight", {"false", "true"}, false},
-                                             {"caustics", {"false", "true"}, false},
-                                             {"smooth_water", {"false", "true"}, false},
-                                             {"roulette_after", {"0", "1", "2", "4", "16"}, true},
-                                             {"jitter", {"false", "true"}, false},
-                                             {"firefly_limit", {"1", "2", "4", "8", "20", "1000"}, true},
-                                             {"history", {"none", "blend", "count"}, false},
-                                             {"history_alpha", {"0.03", "0.1", "0.3"}, true},
-                                             {"history_cap", {"4", "8", "16", "32", "48", "96", "256"}, true},
-                                             {"filter", {"none", "gaussian", "edge_aware"}, false},
-                                             {"filter_passes", {"1", "2", "3"}, true},
-                                             {"antialiasing", {"0", "4", "8"}, false}};
+    static const Coordinate coordinates[] = {
+        {"max_bounces", {"2", "4", "8", "16", "24", "64"}, true},
+        {"max_diffuse_bounces", {"0", "1", "2", "3", "6", "16"}, true},
+        {"max_distance_vox", {"64", "256", "4096"}, true},
+        {"samples_per_pixel", {"1", "2", "4", "8"}, true},
+        {"resolution_scale", {"0.25", "0.35", "0.45", "0.5", "0.6", "0.7", "0.85", "1"}, true},
+        {"traversal", {"voxel", "distance"}, false},
+        {"light_sampling", {"none", "lights", "all"}, false},
+        {"diffuse_sampling", {"cosine", "uniform"}, false},
+        {"sun_through_water", {"false", "true"}, false},
+        {"straight_sunlight", {"false", "true"}, false},
+        {"caustics", {"false", "true"}, false},
+        {"smooth_water", {"false", "true"}, false},
+        {"roulette_after", {"0", "1", "2", "4", "16"}, true},
+        {"jitter", {"false", "true"}, false},
+        {"firefly_limit", {"1", "2", "4", "8", "20", "1000"}, true},
+        {"history", {"none", "blend", "count"}, false},
+        {"history_alpha", {"0.03", "0.1", "0.3"}, true},
+        {"history_cap", {"4", "8", "16", "32", "48", "96", "256"}, true},
+        {"filter", {"none", "gaussian", "edge_aware"}, false},
+        {"filter_passes", {"1", "2", "3"}, true},
+        {"antialiasing", {"0", "4", "8"}, false},
+        {"guided_upsampling", {"false", "true"}, false},
+        {"retrace_changes", {"false", "true"}, false}};
     return coordinates;
 }
 

@@ -123,6 +123,14 @@ std::vector<Measured> over_all(std::span<const TradeoffRow> rows) {
         const auto n = static_cast<double>(places);
         measured.push_back({configuration, std::exp(sum.time / n), std::exp(sum.error / n), sum.eligible});
     }
+    // What was `balanced` when the rows were measured may be another configuration now.
+    const Configuration balanced = configuration_of(Quality::Balanced);
+    for (const Measured& now : measured) {
+        if (now.configuration != balanced) continue;
+        const double unit = now.time;
+        for (Measured& m : measured) m.time /= unit;
+        break;
+    }
     return measured;
 }
 
@@ -130,15 +138,14 @@ std::vector<Measured> of_place(std::span<const TradeoffRow> rows, const std::str
                                const std::string& recording) {
     // Batches ran under different loads of the machine: by ratios to `balanced`, whose own time is one of
     // them.
-    double balanced_ms = 1;
+    double unit_ms = 1;
     const Configuration balanced = configuration_of(Quality::Balanced);
     for (const TradeoffRow& row : rows)
-        if (row.scene == scene && row.configuration == balanced) balanced_ms = row.time_ms;
+        if (row.scene == scene && row.configuration == balanced) unit_ms = row.time_ms / row.time_ratio;
     std::vector<Measured> measured;
     for (const TradeoffRow& row : rows)
         if (row.scene == scene && row.recording == recording)
-            measured.push_back(
-                {row.configuration, balanced_ms * row.time_ratio, row.error, !row.near_floor()});
+            measured.push_back({row.configuration, unit_ms * row.time_ratio, row.error, !row.near_floor()});
     return measured;
 }
 
