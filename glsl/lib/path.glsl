@@ -22,6 +22,10 @@ const int SUN_BY_CHANCE = 4;    // nothing but chance finds it: a caustic
 // has half again the error at the same time.
 const float ROULETTE_SURVIVAL = 2.0;
 
+// Paths of at most so many bounces end without help. In falling water, where light loses little at each of some dozen
+// interfaces, chance would end half of them, and what comes through flicker.
+const int BOUNCES_UNAIDED = 64;
+
 // Low steps of smooth water that a path passes at most; then they scatter as the faces they are.
 const int WATER_STEPS_PASSED_MAX = 64;
 
@@ -226,7 +230,8 @@ vec3 trace_path(vec3 eye_vox, vec3 dir, out FirstSurface first) {
         if (bounce >= frame.trace_options.y) {
             // Radiance is scaled by the index squared while inside a medium; survival must not depend on it.
             float scale = medium_ior / eye_ior;
-            survival = min(0.95, ROULETTE_SURVIVAL * max_component(throughput) * scale * scale);
+            float most = frame.trace_options.x <= BOUNCES_UNAIDED ? 1.0 : 0.95;
+            survival = min(most, ROULETTE_SURVIVAL * max_component(throughput) * scale * scale);
         }
         if (max_component(throughput) <= 0.0 || (survival < 1.0 && rng_shared(bounce) >= survival)) break;
         throughput /= survival;

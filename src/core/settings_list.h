@@ -67,7 +67,7 @@
     BOOL(                                                                                                    \
         jitter, false, LIGHT, IMAGE,                                                                         \
         "Spread samples over the pixel: smooth edges once averaged. For exact; other histories blur by it.") \
-    REAL(firefly_limit, 8, 0, 1000000, LIGHT, IMAGE,                                                         \
+    REAL(firefly_limit, 4, 0, 1000000, LIGHT, IMAGE,                                                         \
          "Upper limit of one sample's radiance after the first bounce; 0: none. Darkens rare bright paths.") \
     CHOICE(                                                                                                  \
         History, history, Count, IMAGE_FILTER, TARGETS,                                                      \

@@ -36,6 +36,30 @@ TEST_F(LightTest, FurnaceWithLightSamplingAndRouletteIsTheSameInTheMean) {
     }
 }
 
+TEST_F(LightTest, ChanceEndsNoPathThroughClearSlabsThatLosesNoLight) {
+    // Six slabs of clear glass under a sky of 1 all around: every path that is let through returns 1.
+    std::string text =
+        R"({"size": [16, 26, 16], "camera": {"position_vox": [8, 40, 8], "pitch_deg": -80, "fov_deg": 15},
+        "sun": {"irradiance": [0, 0, 0]}, "sky": {"zenith": [1, 1, 1], "horizon": [1, 1, 1]},
+        "materials": {"glass": {"absorption_per_m": [0, 0, 0]}}, "build": [)";
+    for (int y = 2; y < 26; y += 4)
+        text += fmt::format(R"({{"box": {{"min": [0, {}, 0], "max": [16, {}, 16], "material": "glass"}}}}{})",
+                            y, y + 2, y + 4 < 26 ? "," : "]}");
+    const auto passed = [&](int bounces) {
+        return picture_of(scene_from(text), 1, {32, 32}, [&](Settings& s) {
+            apply_quality(s, Quality::Balanced);
+            s.max_bounces = bounces;
+            s.history = History::None;
+            s.filter = Filter::None;
+        });
+    };
+    EXPECT_LT(passed(64).worst(1), 1e-4);
+    // Endless paths may be trapped: there chance must end some.
+    const Picture endless = passed(1024);
+    EXPECT_GT(endless.worst(1), 0.5);
+    EXPECT_NEAR(endless.mean().x, 1, 4 * endless.standard_error());
+}
+
 TEST_F(LightTest, Fault5_APathThatRunsOutOfBouncesAddsNothing) {
     // A white box without light: whatever comes back at the end of a path was made up.
     Scene scene = load_scene("furnace", Settings{});
