@@ -15,6 +15,9 @@ namespace {
 
 constexpr double rays_least_ms = 200;  // as long as a frame, about
 constexpr glm::ivec2 sizes_px[] = {{640, 360}, {1280, 720}};
+// A game has a history: so many frames come before the timed ones, or as many as fit.
+constexpr int frames_before = 16;
+constexpr double frames_before_ms = 1500;
 
 // One quality of one scene.
 class FrameCase {
@@ -27,6 +30,7 @@ class FrameCase {
 
     // The time of a frame, and of its passes.
     std::vector<Sample> run(glm::ivec2 size_px) {
+        if (size_px != size_px_) begin(size_px);
         std::map<std::string, long> frames_before;
         for (const gl::PassTime& pass : timers_.passes()) frames_before[pass.name] = pass.frames;
         glFinish();
@@ -35,7 +39,6 @@ class FrameCase {
         glFinish();
         const std::string what = fmt::format("frame {}x{}", size_px.x, size_px.y);
         std::vector<Sample> samples{{what, "ms", watch.ms()}};
-        if (first_frame_ms_ == 0) first_frame_ms_ = samples.front().value;
         timers_.end_frame();
         timers_.finish();
         for (const gl::PassTime& pass : timers_.passes())
@@ -47,10 +50,23 @@ class FrameCase {
     double first_frame_ms() const { return first_frame_ms_; }
 
   private:
+    void begin(glm::ivec2 size_px) {
+        size_px_ = size_px;
+        const Stopwatch watch;
+        for (int i = 0; i < frames_before && watch.ms() < frames_before_ms; ++i) {
+            renderer_.render(simulation_, settings_, size_px);
+            glFinish();
+            if (first_frame_ms_ == 0) first_frame_ms_ = watch.ms();
+            timers_.end_frame();
+        }
+        timers_.finish();
+    }
+
     const Simulation& simulation_;
     Settings settings_;
     gl::Timers timers_;
     Renderer renderer_;
+    glm::ivec2 size_px_{0};
     double first_frame_ms_ = 0;
 };
 

@@ -214,8 +214,11 @@ void LightTrade::run() {
         std::make_unique<Progress>("configurations", static_cast<std::uint64_t>(arguments_.configurations) *
                                                          scenes_.size() * recordings_.size());
     measure(baselines);
+    Settings full;
+    apply_quality(full, Quality::Balanced);
+    full.resolution_scale = 1;
     CoordinateSearch search({configuration_of(Quality::Balanced), configuration_of(Quality::Fast),
-                             configuration_of(Quality::Quality)},
+                             configuration_of(Quality::Quality), configuration_of(full)},
                             arguments_.configurations - static_cast<int>(baselines.size()));
     for (auto batch = search.next(); !batch.empty(); batch = search.next()) search.report(measure(batch));
     progress_.reset();

@@ -87,6 +87,6 @@ std::vector<FrontPoint> front_points(std::span<const TradeoffRow> rows, int poin
 
 // `baseline` with so many samples.
 Configuration baseline_with(int samples);
-constexpr int baseline_samples[] = {1, 4, 16, 64};
+constexpr int baseline_samples[] = {1, 4, 16};
 
 }  // namespace tarn

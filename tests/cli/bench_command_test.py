@@ -63,6 +63,8 @@ class Bench(Case):
                     passes = {what.split(": ")[1]: figure["median"] for (_, of, what, by), figure in figures.items()
                               if of == scene and by == who and what.startswith(f"frame {size}: ")}
                     last = {"accumulate"} if who == "exact" else {"temporal", "filter"}
+                    if who in ("balanced", "quality"):
+                        last.add("antialias")
                     self.assertEqual(set(passes), {"trace", "display", *last}, (scene, size, who))
                     self.assertGreater(min(passes.values()), 0)
             if report["about"]["embree"]:
