@@ -16,8 +16,8 @@ namespace {
 constexpr double rays_least_ms = 200;  // as long as a frame, about
 constexpr glm::ivec2 sizes_px[] = {{640, 360}, {1280, 720}};
 // A game has a history: so many frames come before the timed ones, or as many as fit.
-constexpr int frames_before = 16;
-constexpr double frames_before_ms = 1500;
+constexpr int history_frames = 16;
+constexpr double history_ms_max = 1500;
 
 // One quality of one scene.
 class FrameCase {
@@ -53,7 +53,7 @@ class FrameCase {
     void begin(glm::ivec2 size_px) {
         size_px_ = size_px;
         const Stopwatch watch;
-        for (int i = 0; i < frames_before && watch.ms() < frames_before_ms; ++i) {
+        for (int i = 0; i < history_frames && watch.ms() < history_ms_max; ++i) {
             renderer_.render(simulation_, settings_, size_px);
             glFinish();
             if (first_frame_ms_ == 0) first_frame_ms_ = watch.ms();

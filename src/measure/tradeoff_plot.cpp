@@ -61,7 +61,7 @@ PlotPanel panel_of(const std::string& title, const std::string& time_label,
                          .labels_below = true,
                          .dot_radius = 5,
                          .filled = false};
-    PlotSeries baseline{.name = "baseline, 1 to 64 samples", .dots = true};
+    PlotSeries baseline{.name = "baseline, 1 to 16 samples", .dots = true};
     for (const Measured& m : measured)
         if (all_baselines || !is_baseline(m)) all.points.push_back(point_of(m));
     const auto on_front = pareto_front(measured);
