@@ -2,6 +2,7 @@
 // for `start`, which runs the program itself.
 #pragma once
 #include <functional>
+#include <glm/glm.hpp>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@ namespace tarn {
 
 struct BenchOptions {
     std::vector<int> sides_vox{128, 256, 512};
+    std::vector<glm::ivec2> frame_sizes_px{{640, 360}, {1280, 720}};
     int rounds = 5;
     int threads = 2;
     std::function<void(const std::string&)> progress = [](const std::string&) {};

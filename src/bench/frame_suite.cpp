@@ -14,7 +14,6 @@ namespace tarn {
 namespace {
 
 constexpr double rays_least_ms = 200;  // as long as a frame, about
-constexpr glm::ivec2 sizes_px[] = {{640, 360}, {1280, 720}};
 // A game has a history: so many frames come before the timed ones, or as many as fit.
 constexpr int history_frames = 16;
 constexpr double history_ms_max = 1500;
@@ -78,7 +77,7 @@ void measure_scene(const BenchWorld& world, const BenchOptions& options, BenchRe
     for (std::size_t i = 0; i < names.size(); ++i)
         cases.push_back(std::make_unique<FrameCase>(world, static_cast<Quality>(i)));
 
-    for (const glm::ivec2 size_px : sizes_px) {
+    for (const glm::ivec2 size_px : options.frame_sizes_px) {
         std::vector<Contestant> contestants;
         for (std::size_t i = 0; i < names.size(); ++i)
             contestants.push_back({.suite = "frame",

@@ -147,13 +147,15 @@ void light_options(CLI::App* light, Arguments& arguments) {
     light->footer(footer);
 }
 
-void bench_options(CLI::App* bench, Arguments& arguments) {
+void bench_options(CLI::App* bench, Arguments& arguments, std::string& size) {
     bench->add_option(
         "--suite", arguments.suites,
         fmt::format("Suites below, separated by commas (all): {}", fmt::join(bench_suites(), ", ")));
     bench->add_option("--sizes", arguments.bench_sides_vox, "Sides of the terrain, in voxels (128,256,512)")
         ->delimiter(',')
         ->check(CLI::Range(16, 1024));
+    bench->add_option("--size", size,
+                      "Picture of the frames, WIDTHxHEIGHT (640x360 and 1280x720; bars are for the first)");
     bench
         ->add_option("--repeats", arguments.repeats,
                      "Rounds, taken in turn by all that is compared; what is slow takes part in fewer (5)")
@@ -314,7 +316,7 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
     CLI::App* bench = app.add_subcommand(
         "bench",
         "Measure speed: rays, frames, ticks, edits and starts, each beside what it is compared with");
-    bench_options(bench, arguments);
+    bench_options(bench, arguments, size);
 
     CLI::App* tradeoff = app.add_subcommand(
         "tradeoff", "Measure the trade of speed for accuracy: time against error, and the best of both");

@@ -57,10 +57,11 @@ BenchReport measure(const Arguments& arguments, const std::vector<std::string>& 
 
     BenchResult result;
     StepProgress progress;
-    const BenchOptions options{.sides_vox = arguments.bench_sides_vox,
-                               .rounds = arguments.repeats,
-                               .threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency())),
-                               .progress = [&](const std::string& what) { progress.show(what); }};
+    BenchOptions options{.sides_vox = arguments.bench_sides_vox,
+                         .rounds = arguments.repeats,
+                         .threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency())),
+                         .progress = [&](const std::string& what) { progress.show(what); }};
+    if (arguments.size_px != glm::ivec2(0)) options.frame_sizes_px = {arguments.size_px};
     for (const Suite& suite : suites) {
         if (std::find(names.begin(), names.end(), suite.name) == names.end()) continue;
         const Stopwatch watch;
