@@ -67,9 +67,10 @@ void main() {
         ivec2 tap = at + step_px * place_of(i);
         // At the picture's edge a tap may meet a pixel twice: no harm.
         tap = clamp(tap, ivec2(0), last);
-        vec3 value = texelFetch(radiance, tap, 0).rgb;
+        bool meets = lies_on(here, texelFetch(surface, tap, 0), n, tolerance);
+        vec3 value = meets ? texelFetch(radiance, tap, 0).rgb : vec3(0.0);
         float w = strength * RING_WEIGHT[i >> 2] * exp(-abs(luminance(value) - center_luminance) * fall_off);
-        if (!lies_on(here, texelFetch(surface, tap, 0), n, tolerance)) w = 0.0;
+        if (!meets) w = 0.0;
         sum += w * value;
         weight_sum += w;
     }

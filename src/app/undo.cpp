@@ -1,6 +1,8 @@
 #include "app/undo.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <utility>
 
 namespace tarn {
 
@@ -16,16 +18,24 @@ bool pours(std::uint8_t byte) {
     return is_water(byte) || byte == MATERIAL_SAND;
 }
 
+Box box_of(const std::vector<CellChange>& changes, Box box = {glm::ivec3(INT32_MAX), glm::ivec3(0)}) {
+    for (const CellChange& change : changes) {
+        box.min_vox = glm::min(box.min_vox, change.cell);
+        box.max_vox = glm::max(box.max_vox, change.cell + 1);
+    }
+    return box;
+}
+
+Amounts operator-(const Amounts& a, const Amounts& b) {
+    return {a.quanta - b.quanta, a.sand - b.sand};
+}
+
 }  // namespace
 
 bool undo_stroke(Simulation& simulation, EditHistory& history) {
     const auto changes = history.undo();
     if (!changes) return false;
-    Box box{simulation.size_vox(), glm::ivec3(0)};
-    for (const CellChange& change : *changes) {
-        box.min_vox = glm::min(box.min_vox, change.cell);
-        box.max_vox = glm::max(box.max_vox, change.cell + 1);
-    }
+    Box box = box_of(*changes);
     box.min_vox = glm::max(box.min_vox - glm::ivec3(reach_vox.x, reach_down_vox, reach_vox.z), glm::ivec3(0));
     box.max_vox = glm::min(box.max_vox + reach_vox, simulation.size_vox());
     const bool poured =
@@ -36,16 +46,26 @@ bool undo_stroke(Simulation& simulation, EditHistory& history) {
     }
     const std::vector<std::uint8_t> before = simulation.read_box(box);
     simulation.write(*changes);
-    const auto taken = flowed_on(*changes, box, before, simulation.read_box(box));
-    simulation.write(taken);
-    history.took(taken);
+    auto elsewhere = flowed_on(*changes, box, before, simulation.read_box(box));
+    simulation.write(elsewhere);
+    history.took({std::move(elsewhere), amounts_of(before) - amounts_of(simulation.read_box(box))});
     return true;
 }
 
 bool redo_stroke(Simulation& simulation, EditHistory& history) {
+    const Taken taken = history.release_taken();
     const auto changes = history.redo();
-    if (changes) simulation.write(*changes);
-    return changes.has_value();
+    if (!changes) return false;
+    if (taken.elsewhere.empty()) {
+        simulation.write(*changes);
+        return true;
+    }
+    const Box box = box_of(taken.elsewhere, box_of(*changes));
+    const std::vector<std::uint8_t> before = simulation.read_box(box);
+    simulation.write(*changes);
+    const std::vector<std::uint8_t> after = simulation.read_box(box);
+    simulation.write(given_back(taken, amounts_of(after) - amounts_of(before), box, after));
+    return true;
 }
 
 }  // namespace tarn

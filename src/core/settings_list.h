@@ -86,7 +86,8 @@
     INT(filter_passes, 1, 1, 5, IMAGE_FILTER, IMAGE,                                                         \
         "Passes of the filter, each twice as wide as the last.")                                             \
     INT(antialiasing, 4, 0, 8, IMAGE_FILTER, TARGETS,                                                        \
-        "Places in each pixel at which edges are looked for, without more rays; 0: none. Not with jitter "   \
+        "Places in each pixel at which edges are looked for, without more rays, an even number; 0: none. "   \
+        "Not with jitter "                                                                                   \
         "or the history exact, which need none.")                                                            \
     VEC3(camera_position_vox, 0, 0, 0, -10000000, 10000000, CAMERA, NONE, "Position of the eye in voxels.")  \
     REAL(camera_yaw_deg, 0, -360, 360, CAMERA, NONE, "Heading: 0 looks along -z and grows to the right.")    \

@@ -78,12 +78,9 @@ TradeoffScene::OfRecording& TradeoffScene::references_of(const Recording& record
     std::string about =
         fmt::format("{}x{} every {} cells {:016x} seed {} {}", options_.error_px.x, options_.error_px.y,
                     options_.frame_stride, hash_of(scene_.cells), scene_.seed, recording_json(recording));
-    // Only what differs from exact mode's own: a setting that a later version adds leaves its references as
-    // they are.
-    const Settings plain = exact_settings();
     for (const SettingInfo& info : setting_infos()) {
         // How panels look is in no reference.
-        if (info.group == SettingGroup::DISPLAY || info.get(scene_.settings) == info.get(plain)) continue;
+        if (info.group == SettingGroup::DISPLAY) continue;
         about += fmt::format(" {}={}", info.name, setting_text(scene_.settings, info));
     }
     std::filesystem::path file;

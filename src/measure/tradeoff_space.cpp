@@ -32,7 +32,8 @@ bool is_idle(const Configuration& c, std::string_view key) {
     if (key == "history_alpha") return value_of(c, "history") != "blend";
     if (key == "filter_passes") return value_of(c, "filter") == "none";
     if (key == "antialiasing") return value_of(c, "jitter") == "true";
-    if (key == "guided_upsampling") return value_of(c, "resolution_scale") == "1";
+    if (key == "guided_upsampling")
+        return value_of(c, "resolution_scale") == "1" || value_of(c, "history") == "none";
     if (key == "retrace_changes") return value_of(c, "history") != "count";
     if (key == "sun_through_water") return value_of(c, "light_sampling") == "none";
     return false;

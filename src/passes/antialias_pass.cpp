@@ -35,7 +35,8 @@ void AntialiasPass::record(const Inputs& inputs, const Outputs& outputs, gl::Tim
     inputs.cells.bind_image(IMAGE_CELLS, GL_READ_ONLY);
     inputs.surfaces.radiance.bind_image(IMAGE_ANTIALIAS_RADIANCE, GL_READ_ONLY);
     inputs.surfaces.surface.bind_image(IMAGE_ANTIALIAS_SURFACE, GL_READ_ONLY);
-    const int n = inputs.samples;
+    // The lattices of 1, 3 and 5 lie on diagonals.
+    const int n = inputs.samples + inputs.samples % 2;
     const float stride = static_cast<float>(lattice_stride(n)) / static_cast<float>(n + 1);
     program_.set("pattern", glm::vec2(n, stride));
     program_.use();

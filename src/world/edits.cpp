@@ -123,21 +123,24 @@ std::optional<std::vector<CellChange>> EditHistory::undo() {
 std::optional<std::vector<CellChange>> EditHistory::redo() {
     if (redo_.empty()) return std::nullopt;
     open_ = Open::None;
+    release_taken();
     std::vector<CellChange> changes = redo_.back().changes;
-    for (const CellChange& taken : redo_.back().taken)
-        changes.push_back({taken.cell, taken.after, taken.before});
-    kept_changes_ -= redo_.back().taken.size();
-    redo_.back().taken.clear();
     undo_.push_back(std::move(redo_.back()));
     redo_.pop_back();
     return changes;
 }
 
-void EditHistory::took(const std::vector<CellChange>& changes) {
+void EditHistory::took(Taken taken) {
     CHECK(!redo_.empty());
-    std::vector<CellChange>& taken = redo_.back().taken;
-    taken.insert(taken.end(), changes.begin(), changes.end());
-    kept_changes_ += changes.size();
+    release_taken();
+    kept_changes_ += taken.elsewhere.size();
+    redo_.back().taken = std::move(taken);
+}
+
+Taken EditHistory::release_taken() {
+    if (redo_.empty()) return {};
+    kept_changes_ -= redo_.back().taken.elsewhere.size();
+    return std::exchange(redo_.back().taken, {});
 }
 
 void EditHistory::clear() {

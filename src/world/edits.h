@@ -55,6 +55,24 @@ std::vector<CellChange> flowed_on(const std::vector<CellChange>& undone, const B
                                   const std::vector<std::uint8_t>& before,
                                   const std::vector<std::uint8_t>& after);
 
+// Water and sand: what flows.
+struct Amounts {
+    std::int64_t quanta = 0, sand = 0;  // sixteenths of a voxel of water, voxels of sand
+};
+Amounts amounts_of(const std::vector<std::uint8_t>& bytes);
+
+// What the undo of a stroke took from the world.
+struct Taken {
+    std::vector<CellChange> elsewhere;  // than in the stroke's cells
+    Amounts in_all;
+};
+
+// What redo gives back of it beyond what writing the stroke's cells again has done, `rewritten`. `after`: the
+// bytes of `box`, which holds all of `taken`, after that. Where it was taken, and no more than there is room:
+// what has come since stays.
+std::vector<CellChange> given_back(const Taken& taken, Amounts rewritten, const Box& box,
+                                   const std::vector<std::uint8_t>& after);
+
 class EditHistory {
   public:
     // Opens a new stroke; edits recorded until the next one belong to it. Clears what could be redone.
@@ -67,8 +85,10 @@ class EditHistory {
     // stroke that alone exceeds them cannot be undone. Strokes that changed nothing are not kept.
     std::optional<std::vector<CellChange>> undo();  // before/after swapped: `after` is the byte to write
     std::optional<std::vector<CellChange>> redo();
-    // What was taken with the last undo() beside its changes: redo() gives it back.
-    void took(const std::vector<CellChange>& changes);
+    // What the last undo() took from the world, kept for its redo().
+    void took(Taken taken);
+    // Of the stroke that redo() would repeat; nothing is kept then.
+    Taken release_taken();
     bool can_undo() const { return !undo_.empty(); }
     bool can_redo() const { return !redo_.empty(); }
     const std::vector<Edit>& log() const { return log_; }  // every edit since the start, for replay
@@ -77,8 +97,8 @@ class EditHistory {
   private:
     struct Stroke {
         std::vector<CellChange> changes;
-        std::vector<CellChange> taken{};  // by its undo, elsewhere
-        std::size_t size() const { return changes.size() + taken.size(); }
+        Taken taken{};  // by its undo
+        std::size_t size() const { return changes.size() + taken.elsewhere.size(); }
     };
     void clear_redo();
     void drop_beyond_cap();

@@ -9,21 +9,29 @@ namespace tarn {
 
 namespace {
 
+constexpr std::int64_t full = QUANTA_PER_VOXEL;
 constexpr std::uint8_t water_none = MATERIAL_WATER_FULL - QUANTA_PER_VOXEL;  // plus quanta: a cell of water
 
-struct Amounts {
-    std::int64_t quanta = 0, sand = 0;
-    void add(std::uint8_t byte, int sign) {
-        quanta += sign * static_cast<std::int64_t>(quanta_of(byte));
-        sand += byte == MATERIAL_SAND ? sign : 0;
-    }
-};
+void add(Amounts& amounts, std::uint8_t byte, int sign) {
+    amounts.quanta += sign * static_cast<std::int64_t>(quanta_of(byte));
+    amounts.sand += byte == MATERIAL_SAND ? sign : 0;
+}
+
+std::uint8_t water_of(std::int64_t quanta) {
+    return static_cast<std::uint8_t>(quanta == 0 ? MATERIAL_AIR : water_none + quanta);
+}
 
 bool is_open(std::uint8_t byte) {
     return byte == MATERIAL_AIR || is_water(byte) || byte == MATERIAL_SAND;
 }
 
 }  // namespace
+
+Amounts amounts_of(const std::vector<std::uint8_t>& bytes) {
+    Amounts amounts;
+    for (const std::uint8_t byte : bytes) add(amounts, byte, 1);
+    return amounts;
+}
 
 std::vector<CellChange> flowed_on(const std::vector<CellChange>& undone, const Box& box,
                                   const std::vector<std::uint8_t>& before,
@@ -37,19 +45,27 @@ std::vector<CellChange> flowed_on(const std::vector<CellChange>& undone, const B
     std::vector<char> seen(after.size(), 0);
     std::deque<glm::ivec3> open;
     for (const CellChange& change : undone) {
-        left.add(change.before, 1);
-        left.add(change.after, -1);
+        add(left, change.before, 1);
+        add(left, change.after, -1);
         const glm::ivec3 at = change.cell - box.min_vox;
         char& known = seen[index(at)];
         if (known != 0) continue;
         known = 1;
-        left.add(before[index(at)], -1);
-        left.add(after[index(at)], 1);
+        add(left, before[index(at)], -1);
+        add(left, after[index(at)], 1);
         if (is_open(after[index(at)])) open.push_back(at);
     }
     // What was there before the stroke stays: its own cells are as they were.
     std::fill(seen.begin(), seen.end(), 0);
-    for (const CellChange& change : undone) seen[index(change.cell - box.min_vox)] = 2;
+    Amounts there = amounts_of(after);
+    for (const CellChange& change : undone) {
+        char& state = seen[index(change.cell - box.min_vox)];
+        if (state == 0) add(there, after[index(change.cell - box.min_vox)], -1);
+        state = 2;
+    }
+    // What has left the box, by a drain say, is not looked for.
+    left.quanta = std::min(left.quanta, there.quanta);
+    left.sand = std::min(left.sand, there.sand);
 
     std::vector<CellChange> taken;
     while (!open.empty() && (left.quanta > 0 || left.sand > 0)) {
@@ -61,10 +77,8 @@ std::vector<CellChange> flowed_on(const std::vector<CellChange>& undone, const B
         if (state == 0) {
             if (is_water(byte) && left.quanta > 0) {
                 const auto quanta = std::min<std::int64_t>(left.quanta, quanta_of(byte));
-                const auto rest = static_cast<std::uint8_t>(quanta_of(byte) - quanta);
                 left.quanta -= quanta;
-                taken.push_back({box.min_vox + at, byte,
-                                 static_cast<std::uint8_t>(rest == 0 ? MATERIAL_AIR : water_none + rest)});
+                taken.push_back({box.min_vox + at, byte, water_of(quanta_of(byte) - quanta)});
             } else if (byte == MATERIAL_SAND && left.sand > 0) {
                 --left.sand;
                 taken.push_back({box.min_vox + at, byte, static_cast<std::uint8_t>(MATERIAL_AIR)});
@@ -84,6 +98,36 @@ std::vector<CellChange> flowed_on(const std::vector<CellChange>& undone, const B
         }
     }
     return taken;
+}
+
+std::vector<CellChange> given_back(const Taken& taken, Amounts rewritten, const Box& box,
+                                   const std::vector<std::uint8_t>& after) {
+    const glm::ivec3 size = box.size();
+    CHECK(after.size() == box.volume());
+    Amounts left{taken.in_all.quanta - rewritten.quanta, taken.in_all.sand - rewritten.sand};
+    std::vector<std::uint8_t> now = after;
+    std::vector<CellChange> given;
+    // Each cell what was taken there, and then whatever it has room for.
+    for (const bool all : {false, true})
+        for (const CellChange& change : taken.elsewhere) {
+            const glm::ivec3 at = change.cell - box.min_vox;
+            std::uint8_t& byte =
+                now[at.x + std::size_t{1} * size.x * (at.y + std::size_t{1} * size.y * at.z)];
+            const std::uint8_t before = byte;
+            if (change.before == MATERIAL_SAND && left.sand > 0 && byte == MATERIAL_AIR) {
+                byte = MATERIAL_SAND;
+                --left.sand;
+            } else if (is_water(change.before) && left.quanta > 0 &&
+                       (byte == MATERIAL_AIR || is_water(byte))) {
+                const std::int64_t most =
+                    all ? full : std::int64_t{quanta_of(change.before)} - quanta_of(change.after);
+                const std::int64_t quanta = std::min({left.quanta, most, full - quanta_of(byte)});
+                byte = water_of(quanta_of(byte) + quanta);
+                left.quanta -= quanta;
+            }
+            if (byte != before) given.push_back({change.cell, before, byte});
+        }
+    return given;
 }
 
 }  // namespace tarn

@@ -347,13 +347,16 @@ TEST_F(AppTest, UndoOfAPourTakesWhatFlowedOnAndRedoGivesItBack) {
         const EditTotals& edits = app.simulation().edit_totals();
         return edits.placed.water_quanta - edits.removed.water_quanta;
     };
-    play(app, pressing(Key::Undo));
-    EXPECT_EQ(take_census(app.simulation().read_cells()).water_quanta, 0u) << "all of " << poured;
-    EXPECT_EQ(app.simulation().read_cells(), scene.cells);
-    EXPECT_EQ(books(), 0u);
-    play(app, pressing(Key::Redo));
-    EXPECT_GT(take_census(app.simulation().read_cells()).water_quanta, poured / 2);
-    EXPECT_EQ(take_census(app.simulation().read_cells()).water_quanta, books());
+    for (int again = 0; again < 3; ++again) {
+        play(app, pressing(Key::Undo));
+        EXPECT_EQ(take_census(app.simulation().read_cells()).water_quanta, 0u) << "all of " << poured;
+        EXPECT_EQ(app.simulation().read_cells(), scene.cells);
+        EXPECT_EQ(books(), 0u);
+        play(app, pressing(Key::Redo));
+        EXPECT_EQ(take_census(app.simulation().read_cells()).water_quanta, poured);
+        EXPECT_EQ(books(), poured);
+        for (int i = 0; i < 10; ++i) play(app, pressing(Key::Step));
+    }
 }
 
 TEST_F(AppTest, TheGroundStopsTheEyeUnlessAskedAndHomeBringsItBack) {

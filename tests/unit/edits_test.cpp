@@ -301,18 +301,45 @@ TEST(Edits, PouredSandIsTakenBackFromItsHeap) {
     EXPECT_EQ(taken[1], (CellChange{{0, 2, 0}, MATERIAL_SAND, MATERIAL_AIR}));
 }
 
-TEST(Edits, RedoGivesBackWhatUndoTookElsewhere) {
+TEST(Edits, RedoGivesBackWhatUndoTookAndNoMore) {
+    // Of 35 quanta the undo found 9 in the stroke's cell and 26 elsewhere; writing the cell again makes 16.
+    const Box row{{0, 0, 0}, {4, 1, 1}};
+    const auto water = [](int quanta) { return static_cast<std::uint8_t>(63 + quanta); };
+    const Taken taken{{{{0, 0, 0}, water(16), MATERIAL_AIR}, {{1, 0, 0}, water(12), water(2)}}, {35, 0}};
+    const auto apply = [](std::vector<std::uint8_t> bytes, const std::vector<CellChange>& changes) {
+        for (const CellChange& change : changes) {
+            EXPECT_EQ(bytes[change.cell.x], change.before);
+            bytes[change.cell.x] = change.after;
+        }
+        return bytes;
+    };
+    const std::vector<std::uint8_t> now = {MATERIAL_AIR, water(2), MATERIAL_AIR, water(16)};
+    EXPECT_EQ(apply(now, given_back(taken, {16, 0}, row, now)),
+              (std::vector<std::uint8_t>{water(16), water(5), MATERIAL_AIR, water(16)}));
+    // All that was poured has been written again: nothing is left to give.
+    EXPECT_TRUE(given_back(taken, {35, 0}, row, now).empty());
+    EXPECT_TRUE(given_back(taken, {48, 0}, row, now).empty());
+    // What has come since keeps its place.
+    const std::vector<std::uint8_t> since = {MATERIAL_STONE, water(11), MATERIAL_AIR, water(16)};
+    EXPECT_EQ(apply(since, given_back(taken, {16, 0}, row, since)),
+              (std::vector<std::uint8_t>{MATERIAL_STONE, water(16), MATERIAL_AIR, water(16)}));
+    const Taken heap{{{{2, 0, 0}, MATERIAL_SAND, MATERIAL_AIR}, {{3, 0, 0}, MATERIAL_SAND, MATERIAL_AIR}},
+                     {0, 2}};
+    EXPECT_EQ(apply(since, given_back(heap, {0, 0}, row, since)),
+              (std::vector<std::uint8_t>{MATERIAL_STONE, water(11), MATERIAL_SAND, water(16)}));
+}
+
+TEST(Edits, WhatUndoTookIsKeptForOneRedo) {
     EditHistory history;
     history.begin_stroke();
     history.record({.material = MATERIAL_WATER}, {{3, 3, 3}, {4, 4, 4}}, {MATERIAL_AIR},
                    {MATERIAL_WATER_FULL});
-    for (int again = 0; again < 2; ++again) {
-        ASSERT_EQ(history.undo()->size(), 1u);
-        history.took({{{3, 2, 3}, MATERIAL_WATER_FULL, MATERIAL_AIR}});
-        const auto redone = history.redo();
-        ASSERT_EQ(redone->size(), 2u);
-        EXPECT_EQ(redone->at(1), (CellChange{{3, 2, 3}, MATERIAL_AIR, MATERIAL_WATER_FULL}));
-    }
+    EXPECT_EQ(history.release_taken().in_all.quanta, 0);
+    ASSERT_EQ(history.undo()->size(), 1u);
+    history.took({{{{3, 2, 3}, MATERIAL_WATER_FULL, MATERIAL_AIR}}, {16, 0}});
+    EXPECT_EQ(history.release_taken().in_all.quanta, 16);
+    EXPECT_TRUE(history.release_taken().elsewhere.empty());
+    EXPECT_EQ(history.redo()->size(), 1u);
 }
 
 }  // namespace
