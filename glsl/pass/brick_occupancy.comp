@@ -19,7 +19,8 @@ layout(rg32ui, binding = 1) writeonly uniform uimage3D brick_rooms;
 layout(std430, binding = STORAGE_ROOM_GROUPS) writeonly buffer RoomGroups { uint groups[9]; };
 
 uniform ivec3 size_bricks;
-uniform uvec3 line_groups;  // along x, y, z: ceil(size / 8)
+uniform uvec3 line_groups;  // of brick_rooms.comp along x, y, z
+uniform uvec3 run_groups;   // likewise where an invocation takes a run of lines
 
 void main() {
     uint item = new_change_item();
@@ -68,11 +69,11 @@ void main() {
     for (int medium = 0; medium < 2; ++medium)
         if ((medium == 0 ? held.r : held.g) != (medium == 0 ? holds.r : holds.g))
             mark_room_line(1, brick, size_bricks, medium, 0, ROOM_LEVELS - 1);
-    groups[0] = line_groups.y;
+    groups[0] = run_groups.y;
     groups[1] = line_groups.z;
-    groups[3] = line_groups.x;
+    groups[3] = run_groups.x;
     groups[4] = line_groups.z;
-    groups[6] = line_groups.x;
+    groups[6] = run_groups.x;
     groups[7] = line_groups.y;
     groups[2] = groups[5] = groups[8] = 1u;
 }

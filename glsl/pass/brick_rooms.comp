@@ -1,5 +1,5 @@
 // One axis of the clear rooms ahead of bricks (shared/rooms.h), in the order y, x, z: for every brick the number of
-// levels whose room is clear so far. An invocation a line of bricks: it goes along the line both ways, from as far ahead
+// levels whose room is clear so far. An invocation goes along some lines of bricks, those that are marked, both ways, from as far ahead
 // of what changed as a room reaches to as far behind. Where a count changed, the line of the next axis is marked.
 #include "shared/bindings.h"
 #include "shared/rooms.h"
@@ -99,23 +99,28 @@ void main() {
     uint even = (gl_NumWorkGroups.y + 1u) / 2u;
     uint group = gl_WorkGroupID.y;
     uint row = group < even ? 2u * group : 2u * (group - even) + 1u;
-    ivec2 at = ivec2(gl_GlobalInvocationID.x, row * gl_WorkGroupSize.y + gl_LocalInvocationID.y);
-#if AXIS == 1
-    ivec3 brick = ivec3(at.x, 0, at.y);
-#endif
-#if AXIS == 0
-    ivec3 brick = ivec3(0, at.x, at.y);
-#endif
-#if AXIS == 2
-    ivec3 brick = ivec3(at.x, at.y, 0);
-#endif
-    if (any(greaterThanEqual(brick, size_bricks))) return;
-    int line = room_line_at(AXIS, brick, size_bricks);
-    uint parts = room_lines[line];
-    if (parts == 0u) return;
-    room_lines[line] = 0u;
-    for (; parts != 0u; parts &= parts - 1u) {
+    ivec2 at = ivec2(ROOM_LINES_AN_INVOCATION * gl_GlobalInvocationID.x,
+                     row * gl_WorkGroupSize.y + gl_LocalInvocationID.y);
+    ivec3 first_brick = AXIS == 1 ? ivec3(at.x, 0, at.y) : AXIS == 0 ? ivec3(0, at.x, at.y) : ivec3(at.x, at.y, 0);
+    int beside = AXIS == 0 ? 1 : 0;  // the axis from line to line
+    // A round for each marked line and each of its parts: few are, and a round costs those that have none as well.
+    uint marked = 0u;
+    for (int i = 0; i < ROOM_LINES_AN_INVOCATION; ++i) {
+        ivec3 brick = first_brick;
+        brick[beside] += i;
+        bool within = all(lessThan(brick, size_bricks));
+        int line = room_line_at(AXIS, min(brick, size_bricks - 1), size_bricks);
+        marked |= within && room_lines[line] != 0u ? 1u << i : 0u;
+    }
+    while (marked != 0u) {
+        ivec3 brick = first_brick;
+        brick[beside] += findLSB(marked);
+        int line = room_line_at(AXIS, brick, size_bricks);
+        uint parts = room_lines[line];
         int part = findLSB(parts);
+        parts &= parts - 1u;
+        room_lines[line] = parts;
+        if (parts == 0u) marked &= marked - 1u;
         int range = line + 1 + 3 * part;
         int low = ROOM_LINE_END - int(room_lines[range]);
         int high = int(room_lines[range + 1]) - 1;

@@ -25,6 +25,9 @@ TARN_FUNCTION TARN_UINT room_word_x(TARN_UINT mask_x, TARN_UINT mask_y) {
     return mask_y == ROOM_CLEAR && mask_x < ROOM_LEVELS_END ? mask_x | 0x80000000u : mask_x;
 }
 
+// Lines of bricks that an invocation of brick_rooms.comp looks at, of which few are marked.
+TARN_CONSTANT int ROOM_LINES_AN_INVOCATION = 8;
+
 // Words of a line of bricks in what lib/room_lines.glsl keeps, by axis.
 TARN_FUNCTION int room_line_ways(int axis) { return axis == 1 ? 1 : axis == 0 ? 2 : 4; }
 TARN_FUNCTION int room_line_words(int axis) { return 1 + 2 * 3 * room_line_ways(axis); }

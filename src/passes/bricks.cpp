@@ -57,7 +57,10 @@ void BricksPass::record(const Inputs& in, const Outputs& out, gl::Timers& timers
     occupancy_.bind_image(0, GL_READ_WRITE);
     out.brick_rooms.bind_image(1, GL_WRITE_ONLY);
     occupancy_program_.set("size_bricks", size_bricks);
-    occupancy_program_.set("line_groups", glm::uvec3((size_bricks + 7) / 8));
+    constexpr int side = 8;  // of a group of brick_rooms.comp
+    constexpr int run = side * ROOM_LINES_AN_INVOCATION;
+    occupancy_program_.set("line_groups", glm::uvec3((size_bricks + side - 1) / side));
+    occupancy_program_.set("run_groups", glm::uvec3((size_bricks + run - 1) / run));
     reader_.run(occupancy_program_, in.activity.changes());
     glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
                     GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
