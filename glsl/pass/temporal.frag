@@ -80,13 +80,23 @@ bool shows_an_image(uint id) {
     return id != SURFACE_SKY && (transmits(id) || materials[id].emission_metallic.w > 0.5);
 }
 
-// Frames that may be kept of an image in the surface at `at_vox`: a far one glides by the angle that the eye's way spans
-// there. Turning the eye moves nothing.
-float frames_kept_of_image(vec3 at_vox, float height_px) {
-    vec3 now = normalize(at_vox - frame.camera_position_vox.xyz);
+// Under a level surface the bed seems to lie so deep. Lakes are as deep as that or less so near their shores.
+const float BED_DEPTH_VOX = 9.0;
+const float MIRRORED_AT_NORMAL = 0.02;  // by water
+
+// Frames that may be kept of an image in the surface of normal n at `at_vox`: a far one glides by the angle that the
+// eye's way spans there, the bed under a level surface by less. Turning the eye moves nothing.
+float frames_kept_of_image(vec3 at_vox, uint id, vec3 n, float height_px) {
+    vec3 to_surface = at_vox - frame.camera_position_vox.xyz;
+    vec3 now = normalize(to_surface);
     vec3 before = normalize(at_vox - frame.previous_position_vox.xyz);
     float pixels = distance(now, before) * 0.5 * height_px / length(frame.camera_up.xyz);
-    return IMAGE_LAG_PX / max(pixels, 1e-6);
+    bool over_a_bed = id == MATERIAL_WATER && n.y > 0.5;
+    float grazing = 1.0 - abs(now.y);
+    float squared = grazing * grazing;
+    float mirrored = over_a_bed ? MIRRORED_AT_NORMAL + (1.0 - MIRRORED_AT_NORMAL) * squared * squared * grazing : 1.0;
+    float glides = mix(BED_DEPTH_VOX / (length(to_surface) + BED_DEPTH_VOX), 1.0, mirrored);
+    return IMAGE_LAG_PX / max(pixels * glides, 1e-6);
 }
 
 bool changed_since(vec3 at_vox) {
@@ -241,7 +251,7 @@ void main() {
         if (id != SURFACE_SKY && changed_since(here.xyz - 0.5 * n))
             count = min(count, SAMPLES_A_FRAME * FRAMES_KEPT_NEAR_CHANGE);
         if (shows_an_image(id))
-            count = min(count, SAMPLES_A_FRAME * frames_kept_of_image(here.xyz, float(textureSize(previous_radiance, 0).y)));
+            count = min(count, SAMPLES_A_FRAME * frames_kept_of_image(here.xyz, id, n, float(textureSize(previous_radiance, 0).y)));
         count = min(count, frame.history.y - 1.0);
 #ifndef HISTORY_BLEND
         bool asked = is_retraced && !is_moving(here.w);
