@@ -1,6 +1,7 @@
 // Telling that a cell changed: stamps its brick for the picture and for the sleep of the water, logs it for the
 // structures that hang on the cells, and puts a brick that was asleep on the list of active ones.
-// src/passes/activity.h owns the buffers.
+// src/passes/activity.h owns the buffers. A tick here is a step: Settings::water_substeps of them make a tick of the
+// world.
 #include "shared/bindings.h"
 #include "shared/water.h"
 #include "lib/changes.glsl"

@@ -1,6 +1,6 @@
 // Lines of bricks that pass/brick_rooms.comp is to look at: between which of their bricks a count of the axis before
-// changed, for each medium and way, and the highest level that did. All is zero where nothing is to be done; who looks at
-// a line sets it to zero. src/passes/bricks.h owns the buffer.
+// changed, for each medium and way, and the highest level that did. All is zero where nothing is to be done; who looks
+// at a line sets it to zero. src/passes/bricks.h owns the buffer.
 #include "shared/bindings.h"
 #include "shared/rooms.h"
 

@@ -1,4 +1,4 @@
-// Marks a list of bricks as changed and wakes them: what was edited between two ticks. An invocation a brick.
+// Marks a list of bricks as changed and wakes them: what was edited between two steps. An invocation a brick.
 #include "lib/activity.glsl"
 
 layout(local_size_x = ACTIVE_PER_GROUP) in;

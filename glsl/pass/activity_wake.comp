@@ -1,4 +1,4 @@
-// The active bricks of the tick that begins: those that changed lately stay on the list, and the blocks of one or
+// The active bricks of the step that begins: those that changed lately stay on the list, and the blocks of one or
 // two grids that touch them or a neighbour are listed as awake. An invocation a brick.
 #include "lib/activity.glsl"
 
@@ -20,7 +20,7 @@ layout(std430, binding = STORAGE_AWAKE_BLOCKS_WIDE) buffer AwakeWideBlocks {
 };
 
 uniform ivec3 size_vox;
-uniform uint mark;  // another in every tick, so that nothing needs clearing
+uniform uint mark;  // another in every step, so that nothing needs clearing
 uniform int grids;
 uniform ivec3 block_vox[2];
 uniform ivec3 offset_vox[2];

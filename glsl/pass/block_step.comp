@@ -1,5 +1,6 @@
-// One tick of the `block` tier: an invocation owns a block of 2x2x2 cells, reads them, moves water and sand among
-// them and writes those that changed. Cells outside the world are wall. A workgroup runs a tile of BLOCK_TILE cells a side.
+// One step of the `block` tier: an invocation owns a block of 2x2x2 cells, reads them, moves water and sand among
+// them and writes those that changed. Cells outside the world are wall. A workgroup runs a tile of BLOCK_TILE cells a
+// side.
 #include "shared/hash.h"
 #include "lib/activity.glsl"
 #include "lib/water.glsl"

@@ -1,5 +1,5 @@
-// What the bricks that changed hold, as shared/rooms.h lays it out, and whether they hold what moves and room for it. An
-// invocation a brick. Where one became clear of air or of full water or ceased to be, its column is marked for
+// What the bricks that changed hold, as shared/rooms.h lays it out, and whether they hold what moves and room for it.
+// An invocation a brick. Where one became clear of air or of full water or ceased to be, its column is marked for
 // brick_rooms.comp.
 #include "shared/materials.h"
 #include "shared/bindings.h"

@@ -1,6 +1,7 @@
 // One axis of the clear rooms ahead of bricks (shared/rooms.h), in the order y, x, z: for every brick the number of
-// levels whose room is clear so far. An invocation goes along some lines of bricks, those that are marked, both ways, from as far ahead
-// of what changed as a room reaches to as far behind. Where a count changed, the line of the next axis is marked.
+// levels whose room is clear so far. An invocation goes along some lines of bricks, those that are marked, both ways,
+// from as far ahead of what changed as a room reaches to as far behind. Where a count changed, the line of the next axis
+// is marked.
 #include "shared/bindings.h"
 #include "shared/rooms.h"
 #include "lib/room_lines.glsl"

@@ -1,5 +1,6 @@
-// What the head field does in the tick that begins: nothing while all sleeps, else one sweep, before which what was
-// found in the last ones acts, once a round over the axes found nothing new. One invocation.
+// What the head field does each time it runs, Settings::pressure_sweeps times a step: nothing while all sleeps, else
+// one sweep, before which what was found in the last ones acts, once a round over the axes found nothing new. One
+// invocation.
 #include "shared/bindings.h"
 #include "shared/water.h"
 #include "lib/work_list.glsl"

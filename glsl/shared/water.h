@@ -12,8 +12,8 @@
 // Side of the cubes, in voxels, by which the blocks of the block tier run.
 #define BLOCK_TILE 8
 
-// Ticks (steps, where a tick has several) for which a brick and its 26 neighbours must lie unchanged before it sleeps. Every offset of a block along
-// an axis comes up within 16 ticks, every third tick is a diagonal one.
+// Ticks (steps, where a tick has several) for which a brick and its 26 neighbours must lie unchanged before it
+// sleeps. Every offset of a block along an axis comes up within 16 of them, every third one is diagonal.
 #define SLEEP_TICKS 64
 
 // Sides of workgroups: active bricks that one takes, and lines or cells along a side of one over the head field

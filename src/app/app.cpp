@@ -77,7 +77,7 @@ double picture_ms(const gl::Timers& timers) {
 double tick_ms_total(const gl::Timers& timers) {
     double sum_ms = 0;
     for (const gl::PassTime& pass : timers.passes()) {
-        if (pass.name == "step" || pass.name == "flow") sum_ms += pass.total_ms;
+        if (pass.name == "step" || pass.name == "flow" || pass.name == "head") sum_ms += pass.total_ms;
     }
     return sum_ms;
 }
@@ -243,6 +243,7 @@ void App::fly_in_world(const Input& input) {
     fly(settings_, input, captured_);
     if (settings_.fly_through_ground || settings_.camera_position_vox == from_vox) return;
     Settings probe = settings_;
+    probe.max_distance_vox = static_cast<float>(find_setting("max_distance_vox")->max);
     settings_.camera_position_vox =
         slide(from_vox, settings_.camera_position_vox, [&](glm::vec3 at_vox, glm::vec3 dir) {
             probe.camera_position_vox = at_vox;
@@ -255,6 +256,7 @@ void App::watch_eye() {
     const glm::ivec3 cell(glm::floor(glm::clamp(settings_.camera_position_vox, -1.f, 2048.f)));
     const glm::ivec3 size = simulation_->size_vox();
     eye_hint_.clear();
+    if (settings_.fly_through_ground) return;
     if (glm::any(glm::lessThan(cell, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(cell, size))) return;
     const std::uint8_t byte = simulation_->read_cell(cell);
     if (byte == MATERIAL_AIR || byte == MATERIAL_GLASS || is_water(byte)) return;
@@ -365,10 +367,10 @@ void App::draw_overlays(const Input& input) {
     if (settings_.view != ViewKind::Picture) draw_legend(settings_.view);
     if (!shader_error_.empty())
         draw_message(shader_error_, true);
-    else if (!eye_hint_.empty())
-        draw_message(eye_hint_, false);
     else if (now_s() < message_until_s_)
         draw_message(message_, false);
+    else if (!eye_hint_.empty())
+        draw_message(eye_hint_, false);
 }
 
 }  // namespace tarn

@@ -30,7 +30,7 @@ constexpr HelpLine help_lines[] = {
     {"Tab or M", "look with the mouse, on and off; the brush then aims at the cross"},
     {"F or Alt", "look with the mouse while held"},
     {"Home or G", "back to where the scene's camera stands"},
-    {"", "The ground stops you, unless fly_through_ground (settings, camera) is on."},
+    {"", "The ground stops you, unless fly_through_ground (settings, display) is on."},
     {nullptr, "Build"},
     {"left button", "place; hold to pour water and sand, drag to draw in the plane where you began"},
     {"right button", "remove; hold to dig on"},

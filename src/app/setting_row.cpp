@@ -31,10 +31,21 @@ struct Dependence {
     std::string_view value;
 };
 constexpr Dependence dependences[] = {
-    {"history_alpha", "history", true, "blend"},       {"history_cap", "history", true, "count"},
-    {"filter_passes", "filter", false, "none"},        {"turbidity", "sky_model", true, "preetham"},
-    {"sky_brightness", "sky_model", true, "preetham"}, {"sun_irradiance", "sky_model", true, "gradient"},
-    {"sky_zenith", "sky_model", true, "gradient"},     {"sky_horizon", "sky_model", true, "gradient"},
+    {"history_alpha", "history", true, "blend"},
+    {"history_cap", "history", true, "count"},
+    {"filter_passes", "filter", false, "none"},
+    {"turbidity", "sky_model", true, "preetham"},
+    {"sky_brightness", "sky_model", true, "preetham"},
+    {"sun_irradiance", "sky_model", true, "gradient"},
+    {"sky_zenith", "sky_model", true, "gradient"},
+    {"sky_horizon", "sky_model", true, "gradient"},
+    {"pressure_sweeps", "water_tier", true, "pressure"},
+    {"retrace_changes", "history", true, "count"},
+    {"antialiasing", "history", false, "exact"},
+    {"antialiasing", "jitter", false, "true"},
+    {"guided_upsampling", "resolution_scale", false, "1"},
+    {"guided_upsampling", "history", false, "none"},
+    {"guided_upsampling", "history", false, "exact"},
 };
 
 // Why the setting changes nothing as the others stand; empty: it works.

@@ -93,7 +93,6 @@
     REAL(camera_yaw_deg, 0, -360, 360, CAMERA, NONE, "Heading: 0 looks along -z and grows to the right.")    \
     REAL(camera_pitch_deg, 0, -90, 90, CAMERA, NONE, "Elevation of the view; grows upward.")                 \
     REAL(camera_fov_deg, 60, 1, 179, CAMERA, NONE, "Vertical field of view.")                                \
-    BOOL(fly_through_ground, false, CAMERA, NONE, "Fly through solid voxels; off: slide along them.")        \
     REAL(water_ior, 1.333, 0.75, 3, WATER, IMAGE, "Refractive index of water.")                              \
     COLOR(water_color, 0.7, 0.93, 0.96, 0.0001, 1, WATER, IMAGE,                                             \
           "Colour of white light after one metre of water.")                                                 \
@@ -123,4 +122,5 @@
     BOOL(vsync, true, DISPLAY, NONE, "Wait for the display between frames.")                                 \
     REAL(fly_speed_vox_s, 24, 0.1, 10000, DISPLAY, NONE,                                                     \
          "Flying speed in voxels per second; Shift: four times.")                                            \
+    BOOL(fly_through_ground, false, DISPLAY, NONE, "Fly through solid voxels; off: slide along them.")       \
     REAL(mouse_sensitivity, 0.15, 0.01, 5, DISPLAY, NONE, "Degrees of turn per pixel of mouse movement.")

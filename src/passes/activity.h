@@ -1,7 +1,8 @@
 // Which parts of the world are awake and which changed, kept on the GPU: a list of bricks with a change in
 // the last SLEEP_TICKS ticks, for each tick the lists of blocks that touch one of them or a neighbour, and
 // the log of changes (glsl/pass/activity_*.comp, glsl/lib/activity.glsl). Owns these buffers and its
-// programs; knows no rule of the water.
+// programs; knows no rule of the water. A tick here is a step: Settings::water_substeps of them make a tick
+// of the world.
 #pragma once
 #include <array>
 #include <cstdint>

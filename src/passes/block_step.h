@@ -1,4 +1,4 @@
-// The `block` tier of the water on the GPU: one tick, in place (glsl/pass/block_step.comp). Owns its program.
+// The `block` tier of the water on the GPU: one step, in place (glsl/pass/block_step.comp). Owns its program.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -13,10 +13,10 @@ namespace tarn {
 class BlockStepPass {
   public:
     struct Inputs {
-        std::uint32_t seed, tick;
-        int film_threshold;      // quanta
-        std::uint32_t version;   // stamped on bricks whose cells change
-        ActivityPass& activity;  // begun for this tick with the grid below
+        std::uint32_t seed, tick;  // tick: steps of the water so far
+        int film_threshold;        // quanta
+        std::uint32_t version;     // stamped on bricks whose cells change
+        ActivityPass& activity;    // begun for this step with the grid below
     };
     struct Outputs {
         gl::Texture& cells;          // R8UI

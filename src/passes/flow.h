@@ -17,9 +17,9 @@ namespace tarn {
 class FlowPass {
   public:
     struct Inputs {
-        std::uint32_t seed, tick;
+        std::uint32_t seed, tick;      // tick: steps of the water so far
         std::uint32_t version;         // stamped on bricks whose cells change
-        const ActivityPass& activity;  // begun for this tick
+        const ActivityPass& activity;  // begun for this step
     };
     struct Outputs {
         gl::Texture& cells;          // R8UI

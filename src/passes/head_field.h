@@ -1,6 +1,6 @@
 // The head of confined water for the pressure tier (glsl/pass/head_*.comp): found by sweeps along the lines
-// of the world, one axis a tick, and made to act once a round finds nothing new. Owns both fields and its
-// programs.
+// of the world, one axis each time it runs, and made to act once a round finds nothing new. Owns both fields
+// and its programs.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -17,10 +17,10 @@ class HeadFieldPass {
   public:
     struct Inputs {
         const gl::Texture& cells;  // R8UI
-        std::uint32_t tick;
-        int film_threshold;  // quanta
+        std::uint32_t tick;        // steps of the water so far
+        int film_threshold;        // quanta
         int sweeps;
-        const ActivityPass& activity;  // begun for this tick; nothing has changed since
+        const ActivityPass& activity;  // begun for this step; nothing has changed since
     };
 
     // No head anywhere. Throws Error where GPU memory does not suffice: 8 bytes a voxel.

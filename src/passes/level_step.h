@@ -1,4 +1,4 @@
-// One tick of the `level` and `pressure` tiers of the water (glsl/pass/level_*.comp).
+// One step of the `level` and `pressure` tiers of the water (glsl/pass/level_*.comp).
 #pragma once
 #include <array>
 #include <cstdint>
@@ -15,10 +15,10 @@ namespace tarn {
 class LevelStepPass {
   public:
     struct Inputs {
-        std::uint32_t seed, tick;
-        int film_threshold;      // quanta
-        std::uint32_t version;   // stamped on bricks whose cells change
-        ActivityPass& activity;  // begun for this tick with the grids below
+        std::uint32_t seed, tick;  // tick: steps of the water so far
+        int film_threshold;        // quanta
+        std::uint32_t version;     // stamped on bricks whose cells change
+        ActivityPass& activity;    // begun for this step with the grids below
     };
     struct Outputs {
         gl::Texture& cells;          // R8UI

@@ -1,5 +1,6 @@
 // Which parts of the world are awake. A brick sleeps once nothing has changed for SLEEP_TICKS ticks in it and
 // its 26 neighbours; a block of cells runs when a brick it touches is awake. Knows no rule of the water.
+// A tick here is a step: Settings::water_substeps of them make a tick of the world.
 #pragma once
 #include <cstdint>
 #include <glm/glm.hpp>

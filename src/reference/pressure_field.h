@@ -1,5 +1,6 @@
-// The head of confined water in plain serial code. Built by sweeps along whole lines of the world, one axis a
-// tick; once a round over the three axes finds nothing new, it becomes the head that acts on the water.
+// The head of confined water in plain serial code. Built by sweeps along whole lines of the world, one axis
+// each time it runs; once a round over the three axes finds nothing new, it becomes the head that acts on the
+// water.
 #pragma once
 #include <cstdint>
 #include <glm/glm.hpp>

@@ -7,9 +7,9 @@
 
 namespace tarn::reference {
 
-// One tick. `film_threshold` in quanta. `activity.begin_tick()` has been called; changes are told to it. Any
-// byte is allowed in `cells`: those that are not air, sand or water are solid, as is what lies outside the
-// world.
+// One step, `tick` counts them. `film_threshold` in quanta. `activity.begin_tick()` has been called; changes
+// are told to it. Any byte is allowed in `cells`: those that are not air, sand or water are solid, as is what
+// lies outside the world.
 void water_block_tick(Cells& cells, std::uint32_t seed, std::uint32_t tick, int film_threshold,
                       Activity& activity);
 

@@ -9,10 +9,9 @@
 
 namespace tarn::reference {
 
-// One tick. `film_threshold` in quanta; `field`, whose own tick has run, makes it the pressure
-// tier. `activity.begin_tick()` has been
-// called; changes are told to it. Any byte is allowed: those that are not air, sand or water are solid, as is
-// what lies outside the world.
+// One step, `tick` counts them. `film_threshold` in quanta; `field`, whose own sweeps have run, makes it the
+// pressure tier. `activity.begin_tick()` has been called; changes are told to it. Any byte is
+// allowed: those that are not air, sand or water are solid, as is what lies outside the world.
 void water_level_tick(Cells& cells, std::uint32_t seed, std::uint32_t tick, int film_threshold,
                       Activity& activity, PressureField* field);
 
