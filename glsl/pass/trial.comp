@@ -1,6 +1,7 @@
-// Sums for an unbiased estimate of a shown picture's relMSE: at one pixel in stride x stride two samples a, b of exact
-// mode, which know nothing of the picture nor of each other, so that the expectation of (x - a)(x - b) is the squared
-// error of x, whatever it comes from. TRIAL_MEAN: of the samples' luminance; then the relative errors.
+// Sums for an estimate of a shown picture's relMSE: at one pixel in stride x stride two samples a, b of exact mode,
+// which know nothing of the picture nor of each other, so that the expectation of (x - a)(x - b) is the squared error
+// of x, whatever it comes from. What that is divided by is made of the same samples: the quotient has a bias, which
+// the samples around keep small. TRIAL_MEAN: of the samples' luminance; then the relative errors.
 #include "shared/bindings.h"
 #include "shared/trial.h"
 #include "lib/math.glsl"
@@ -27,12 +28,14 @@ vec2 samples_at(ivec2 at) {
 // around at an edge, the two of the pixel are noise, so the one in the middle.
 float luminance_scale(ivec2 at, float shown, float sampled) {
     ivec2 last = textureSize(sample_a, 0) - 1;
-    float around = 0.0;
+    vec2 sum = vec2(0.0);  // luminance, samples
     for (int i = 0; i < 9; ++i) {
-        vec2 ab = samples_at(clamp(at + ivec2(i % 3 - 1, i / 3 - 1), ivec2(0), last));
-        around += i == 4 || !is_finite(vec3(ab, 0.0)) ? 0.0 : ab.x + ab.y;
+        ivec2 tap = at + ivec2(i % 3 - 1, i / 3 - 1);
+        ivec2 inside = clamp(tap, ivec2(0), last);
+        vec2 ab = samples_at(inside);
+        sum += i != 4 && tap == inside && is_finite(vec3(ab, 0.0)) ? vec2(ab.x + ab.y, 2.0) : vec2(0.0);
     }
-    around /= 16.0;
+    float around = sum.y > 0.0 ? sum.x / sum.y : 0.5 * (shown + sampled);
     return max(min(shown, sampled), min(max(shown, sampled), around));
 }
 #endif

@@ -64,12 +64,14 @@ std::vector<double> front_times() {
     return times;
 }
 
-// Of a frame, the passes whose work the settings of the trade decide.
+// Of the last frame that is known, the passes whose work the settings of the trade decide.
 double picture_ms(const gl::Timers& timers) {
     double sum_ms = 0;
     for (const gl::PassTime& pass : timers.passes()) {
-        for (const char* name : {"trace", "temporal", "filter", "display", "emitters"})
-            if (pass.name == name) sum_ms += pass.mean_ms;
+        if (pass.last_frame != timers.last_frame()) continue;
+        for (const char* name :
+             {"trace", "temporal", "accumulate", "filter", "antialias", "display", "emitters"})
+            if (pass.name == name) sum_ms += pass.last_ms;
     }
     return sum_ms;
 }
@@ -228,12 +230,14 @@ void App::change_settings(const Input& input, Actions& actions) {
 }
 
 void App::govern(const Input& input) {
+    // The time that ends now is of the frame before.
+    frame_times_.add_frame(timers_.frame() - 1, input.dt_s * 1000);
+    if (timers_.last_frame() >= 0) frame_times_.add_picture(timers_.last_frame(), picture_ms(timers_));
     // Of a refined picture's time the table knows nothing.
     if (renderer_->is_refining()) return;
     const std::size_t point = front_point(settings_.tradeoff);
     const double target_ms = settings_.governor ? settings_.frame_time_target_ms : 0;
-    const double fixed_ms = std::max(0.0, frame_ms_ - picture_ms(timers_));
-    const std::size_t next = governor_.frame(input.dt_s * 1000, point, target_ms, fixed_ms);
+    const std::size_t next = governor_.frame(input.dt_s * 1000, point, target_ms, frame_times_.fixed_ms());
     if (settings_.governor && next != point) apply_front_point(settings_, next);
 }
 

@@ -9,6 +9,7 @@
 
 #include "app/camera.h"
 #include "app/flight_recorder.h"
+#include "app/frame_times.h"
 #include "app/governor.h"
 #include "app/panels.h"
 #include "app/renderer.h"
@@ -85,6 +86,7 @@ class App {
     Tools tools_;
     TickClock clock_;
     Panels panels_;
+    FrameTimes frame_times_;
     Governor governor_;
     FlightRecorder recorder_;
     std::vector<RecordedEdit> frame_edits_;  // of this frame, undo and redo too

@@ -43,7 +43,7 @@ void ErrorEstimate::measure(const Picture& picture, gl::Timers& timers) {
     last(false);
     if (!noise_pass_) noise_pass_.emplace();
     if (!trial_pass_) trial_pass_.emplace();
-    if (noise_pass_->pending() || trial_pass_->pending()) return;
+    if (is_under_way()) return;
     if (!targets_ || targets_->radiance_target.size() != picture.size_px) targets_.emplace(picture.size_px);
     improves_ = picture.improves;
     picture.draw_radiance(targets_->radiance_target);
@@ -66,6 +66,11 @@ void ErrorEstimate::measure(const Picture& picture, gl::Timers& timers) {
 }
 
 std::optional<double> ErrorEstimate::last(bool wait) {
+    if (is_under_way()) take(wait);
+    return answer_;
+}
+
+void ErrorEstimate::take(bool wait) {
     if (noise_pass_)
         if (const auto arrived = noise_pass_->take(wait)) {
             noise_.reset();
@@ -76,6 +81,11 @@ std::optional<double> ErrorEstimate::last(bool wait) {
             trials_.push_back(*arrived);
             while (trials_.size() > (improves_ ? 1 : trials_kept)) trials_.pop_front();
         }
+    // Half of a new answer is none: the old one stands.
+    if (!is_under_way()) answer_ = answer();
+}
+
+std::optional<double> ErrorEstimate::answer() const {
     if (trials_.empty()) return combined_error(noise_, std::nullopt);
     const auto n = static_cast<double>(trials_.size());
     Trial mean;
@@ -86,11 +96,20 @@ std::optional<double> ErrorEstimate::last(bool wait) {
     return combined_error(noise_, mean);
 }
 
-void ErrorEstimate::forget() {
+bool ErrorEstimate::is_under_way() const {
+    return (noise_pass_ && noise_pass_->pending()) || (trial_pass_ && trial_pass_->pending());
+}
+
+void ErrorEstimate::begin_anew() {
     if (noise_pass_) noise_pass_->discard();
     if (trial_pass_) trial_pass_->discard();
     noise_.reset();
     trials_.clear();
+}
+
+void ErrorEstimate::forget() {
+    begin_anew();
+    answer_.reset();
 }
 
 }  // namespace tarn

@@ -36,8 +36,10 @@ class ErrorEstimate {
     };
     // Of the frame just made. Nothing while an earlier answer is under way.
     void measure(const Picture& picture, gl::Timers& timers);
-    // Of the answers so far; nothing before the first.
+    // Of the answers so far, the last until the next is complete; nothing before the first.
     std::optional<double> last(bool wait);
+    // The picture is of another world: earlier trials count no more. The last answer stands until the next.
+    void begin_anew();
     // What is known and what is under way, of a picture that is no more.
     void forget();
 
@@ -54,12 +56,17 @@ class ErrorEstimate {
         gl::Framebuffer variance_target, radiance_target, sample_target[2];
         explicit Targets(glm::ivec2 size_px);
     };
+    bool is_under_way() const;
+    void take(bool wait);
+    std::optional<double> answer() const;
+
     std::optional<ErrorPass> noise_pass_;
     std::optional<TrialPass> trial_pass_;
     std::optional<Targets> targets_;
     std::optional<double> noise_;
     std::deque<Trial> trials_;  // newest last
     bool improves_ = false;
+    std::optional<double> answer_;
 };
 
 }  // namespace tarn

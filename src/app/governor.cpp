@@ -129,8 +129,9 @@ std::size_t Governor::frame(double ms, std::size_t point, double target_ms, doub
 
 double Governor::expected_ms(std::size_t point) const {
     if (known_ms_ <= 0) return 0;
-    const double scaled = known_ms_ - fixed_ms_;
-    return fixed_ms_ + scaled * time_of(std::min(point, as_given_.size() - 1)) / time_of(known_point_);
+    const double fixed = std::min(fixed_ms_, known_ms_);  // another median may know less
+    return fixed +
+           (known_ms_ - fixed) * time_of(std::min(point, as_given_.size() - 1)) / time_of(known_point_);
 }
 
 }  // namespace tarn

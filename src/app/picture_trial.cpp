@@ -19,11 +19,11 @@ constexpr std::uint32_t trial_seed = 0x9e3779b9u;
 
 // Null while its program is being built.
 const TracePass* Renderer::Parts::trial_program(const Simulation& simulation) {
-    // What is tried must be what was asked for, and the choice of the picture's own program stays
-    // undisturbed.
+    // What is tried must be what was asked for.
     if (!exact_program) return nullptr;
     trial.settings = settings;
     apply_quality(trial.settings, Quality::Exact);
+    trial.settings.view = ViewKind::Picture;
     trial.block = make_frame_block({.settings = trial.settings,
                                     .world_size_vox = simulation.size_vox(),
                                     .metres_per_voxel = metres_per_voxel,
@@ -32,8 +32,8 @@ const TracePass* Renderer::Parts::trial_program(const Simulation& simulation) {
                                     .frames_kept = 0,
                                     .traced_px = targets->shown_px,
                                     .shown_px = targets->shown_px});
-    const TracePrograms::Choice choice = program_for(simulation, trial.settings, trial.block);
-    return choice.exact ? &choice.pass : nullptr;
+    const Needs needs = needs_of(simulation, trial.settings, trial.block);
+    return trace.find(needs.needed, needs.general, shapes(simulation));
 }
 
 void Renderer::Parts::draw_trial_sample(const Simulation& simulation, const TracePass& pass,
@@ -61,6 +61,9 @@ void Renderer::measure_error(const Simulation& simulation) {
     const bool refined = p.refinement.samples > 0;
     if (difference(as_tried, p.trial.of) >= SettingEffect::IMAGE || refined != p.trial.refined)
         p.error.forget();
+    else if (simulation.edit_totals() != p.trial.edits)
+        p.error.begin_anew();
+    p.trial.edits = simulation.edit_totals();
     p.trial.of = p.settings;
     p.trial.refined = refined;
 

@@ -34,12 +34,17 @@ TraceShapes Renderer::Parts::shapes(const Simulation& simulation) const {
             .targets = {targets->radiance[0].small_like(), frame.surface.small_like()}};
 }
 
-TracePrograms::Choice Renderer::Parts::program_for(const Simulation& simulation, const Settings& of,
-                                                   const FrameBlock& in) {
+Renderer::Parts::Needs Renderer::Parts::needs_of(const Simulation& simulation, const Settings& of,
+                                                 const FrameBlock& in) const {
     const auto held = [&](std::size_t id) { return contents.may_hold(simulation, id); };
     const TraceFeatures needed = with(always, needed_features(of, materials, in, held));
-    const TraceFeatures general = with(needed, general_features(of, materials));
-    return trace.choose(needed, general, shapes(simulation));
+    return {needed, with(needed, general_features(of, materials))};
+}
+
+TracePrograms::Choice Renderer::Parts::program_for(const Simulation& simulation, const Settings& of,
+                                                   const FrameBlock& in) {
+    const Needs needs = needs_of(simulation, of, in);
+    return trace.choose(needs.needed, needs.general, shapes(simulation));
 }
 
 const TracePass& Renderer::Parts::choose_program(const Simulation& simulation) {

@@ -43,6 +43,7 @@ struct PictureTrial {
     std::uint32_t index = 0;  // of the next sample
     Settings of;              // of the picture tried last
     bool refined = false;     // that was
+    EditTotals edits;         // of its world
 };
 
 struct Renderer::Parts {
@@ -108,6 +109,11 @@ struct Renderer::Parts {
         return *pass;
     }
     TraceShapes shapes(const Simulation& simulation) const;
+    struct Needs {
+        TraceFeatures needed, general;  // as TracePrograms::choose() takes them
+    };
+    Needs needs_of(const Simulation& simulation, const Settings& of, const FrameBlock& in) const;
+    // Of the shown picture.
     TracePrograms::Choice program_for(const Simulation& simulation, const Settings& of, const FrameBlock& in);
     const TracePass& choose_program(const Simulation& simulation);
     void prepare_targets(const Settings& now, glm::ivec2 size_px);

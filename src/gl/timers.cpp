@@ -63,8 +63,10 @@ void Timers::collect(bool wait) {
                 pass.frames == 0 ? pass.last_ms : pass.mean_ms + (pass.last_ms - pass.mean_ms) / 16;
             pass.total_ms += pass.last_ms;
             ++pass.frames;
+            pass.last_frame = collecting_;
             frame_sum_ms_[i] = 0;
         }
+        last_frame_ = collecting_;
     };
     std::size_t done = 0;
     for (; done < pending_.size(); ++done) {

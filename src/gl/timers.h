@@ -14,6 +14,7 @@ struct PassTime {
     double mean_ms = 0;   // exponential mean over about 16 frames
     double total_ms = 0;  // since the start
     long frames = 0;      // frames with this pass
+    long last_frame = 0;  // the last of these, by the end_frame() calls before it
 };
 
 class Timers {
@@ -44,6 +45,8 @@ class Timers {
     void finish();
 
     const std::vector<PassTime>& passes() const { return passes_; }
+    long frame() const { return frame_; }            // end_frame() calls so far
+    long last_frame() const { return last_frame_; }  // whose passes are all known; -1: none yet
 
   private:
     struct Pending {
@@ -60,6 +63,7 @@ class Timers {
     std::vector<GLuint> free_;
     long frame_ = 0;
     long collecting_ = 0;
+    long last_frame_ = -1;
 };
 
 }  // namespace tarn::gl

@@ -174,6 +174,16 @@ TracePrograms::Choice TracePrograms::choose(const TraceFeatures& needed, const T
     return {*pass, exact};
 }
 
+const TracePass* TracePrograms::find(const TraceFeatures& needed, const TraceFeatures& general,
+                                     const TraceShapes& shapes) {
+    collect(exact_);
+    const auto found = passes_.find(needed);
+    if (found != passes_.end()) return &found->second;
+    if (!worker_.joinable()) return &build_now(needed);
+    order(needed, shapes);
+    return smallest_between(needed, general);
+}
+
 void TracePrograms::wait() {
     if (!worker_.joinable()) return;
     std::unique_lock lock(mutex_);

@@ -41,6 +41,11 @@ class TracePrograms {
     // picture. Throws Error where a program is built at once and does not compile.
     Choice choose(const TraceFeatures& needed, const TraceFeatures& general, const TraceShapes& shapes);
 
+    // The same for a picture that can wait, apart from the one on show: draws exactly what `needed` does;
+    // null until there is one. Does not count as a choice: what serves the shown picture stays as it is.
+    const TracePass* find(const TraceFeatures& needed, const TraceFeatures& general,
+                          const TraceShapes& shapes);
+
     // Until all that was asked for is built.
     void wait();
     double waited_ms() const { return waited_ms_; }  // for programs that were built at once

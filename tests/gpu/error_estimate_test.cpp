@@ -7,6 +7,7 @@
 #include "app/error_estimate.h"
 #include "app/renderer.h"
 #include "gl_test.h"
+#include "passes/trace_programs.h"
 
 namespace tarn {
 namespace {
@@ -208,6 +209,67 @@ TEST_F(GlTest, NothingIsSaidOfAPictureThatIsNoMore) {
         images[kept ? 1 : 0] = renderer.read_radiance().pixels;
     }
     EXPECT_EQ(images[0], images[1]);
+}
+
+// While the answer is under way: the last one or, where the GPU was quick, the new one.
+TEST_F(GlTest, TheLastAnswerStandsUntilTheNextIsThere) {
+    const Scene scene = blocks();
+    gl::Timers timers;
+    Simulation simulation(scene, timers);
+    Renderer renderer(scene, timers);
+    renderer.keep_variance(true);
+    const auto render = [&](int frames) {
+        for (int i = 0; i < frames; ++i) renderer.render(simulation, scene.settings, size_px);
+    };
+    const auto expect_an_answer = [&](const char* when) {
+        const auto before = renderer.estimated_error(true);
+        ASSERT_TRUE(before) << when;
+        render(1);
+        renderer.measure_error(simulation);
+        const auto at_once = renderer.estimated_error(false);
+        const auto after = renderer.estimated_error(true);
+        EXPECT_TRUE(at_once) << when;
+        EXPECT_TRUE(at_once == before || at_once == after) << when;
+    };
+    render(10);
+    renderer.measure_error(simulation);
+    expect_an_answer("by trials");
+    render(60);
+    expect_an_answer("from trials to the spread");
+    expect_an_answer("by the spread");
+    // An edit makes another picture of the same size: earlier trials end, the line in the corner stays.
+    EditHistory history;
+    history.begin_stroke();
+    simulation.apply({.tick = 0,
+                      .shape = BrushShape::Sphere,
+                      .center_vox = {16, 4, 14},
+                      .radius_vox = 2,
+                      .material = MATERIAL_STONE,
+                      .overwrite = true},
+                     history);
+    simulation.step(0, scene.settings);
+    expect_an_answer("after an edit");
+}
+
+// Views count paths by programs of their own; a trial is of the picture.
+TEST_F(GlTest, ATrialLeavesTheChoiceOfThePicturesProgramAlone) {
+    Scene scene = blocks();
+    scene.settings.history = History::Count;
+    gl::Timers timers;
+    const Simulation simulation(scene, timers);
+    TracePrograms programs(platform()->make_shared_context());
+    Renderer renderer(scene, timers, &programs);
+    renderer.keep_variance(true);
+    for (const ViewKind view : {ViewKind::Picture, ViewKind::Bounces, ViewKind::Steps}) {
+        Settings settings = scene.settings;
+        settings.view = view;
+        apply_quality(settings, Quality::Fast);
+        for (int i = 0; i < 2; ++i) renderer.render(simulation, settings, size_px);
+        const double waited_ms = programs.waited_ms();
+        renderer.measure_error(simulation);
+        EXPECT_EQ(programs.waited_ms(), waited_ms) << "the trial was built on the frame's thread";
+        renderer.estimated_error(true);
+    }
 }
 
 TEST(CombinedError, IsTheTrialsWhereThatIsSureElseTheNoise) {

@@ -8,6 +8,8 @@
 #include <limits>
 #include <random>
 
+#include "app/frame_times.h"
+
 namespace tarn {
 namespace {
 
@@ -114,6 +116,65 @@ TEST(Governor, ExpectsThatOnlyThePictureScales) {
     // More fixed than there is counts as all.
     for (int i = 0; i < 20; ++i) governor.frame(45, 6, 0, 1e9);
     EXPECT_DOUBLE_EQ(governor.expected_ms(0), 45);
+}
+
+// Point 3 takes 20 ms, of which 15 are fixed; what the picture took is told three frames late.
+TEST(Governor, LearnsTheTruthFromPictureTimesThatLag) {
+    constexpr long lag = 3;
+    Governor governor(table);
+    FrameTimes times;
+    std::vector<double> picture_ms;
+    const auto run_at = [&](std::size_t point, int frames) {
+        for (int i = 0; i < frames; ++i) {
+            const auto frame = static_cast<long>(picture_ms.size());
+            picture_ms.push_back(5 * table[point]);
+            times.add_frame(frame, 15 + picture_ms.back());
+            if (frame < lag) {
+                EXPECT_EQ(times.fixed_ms(), 0);
+            } else {
+                times.add_picture(frame - lag, picture_ms[static_cast<std::size_t>(frame - lag)]);
+                EXPECT_DOUBLE_EQ(times.fixed_ms(), 15) << frame;
+            }
+            governor.frame(15 + picture_ms.back(), point, 0, times.fixed_ms());
+        }
+    };
+    run_at(3, 40);
+    for (const std::size_t point : {6, 0, 5, 3}) {
+        run_at(point, 20);
+        for (std::size_t other = 0; other < table.size(); ++other)
+            EXPECT_NEAR(governor.expected_ms(other), 15 + 5 * table[other], 0.01) << point << ' ' << other;
+    }
+}
+
+TEST(FrameTimes, KnowOnlyWhatTheyWereTold) {
+    FrameTimes times;
+    EXPECT_EQ(times.fixed_ms(), 0);
+    times.add_picture(-1, 3);
+    times.add_frame(0, 10);
+    times.add_picture(7, 3);  // a frame that is not known
+    EXPECT_EQ(times.fixed_ms(), 0);
+    times.add_frame(8, 10);
+    times.add_picture(8, 4);
+    times.add_picture(8, 9);  // twice
+    EXPECT_EQ(times.fixed_ms(), 6);
+    for (long frame = 9; frame < 13; ++frame) {
+        times.add_frame(frame, 10);
+        times.add_picture(frame, frame == 10 ? 30 : 4);  // one that overlapped another
+    }
+    EXPECT_EQ(times.fixed_ms(), 6);
+    for (long frame = 13; frame < 100; ++frame) times.add_frame(frame, 10);
+    times.add_picture(13, 0);  // too late
+    EXPECT_EQ(times.fixed_ms(), 6);
+}
+
+// The last nine frames are slower than the thirty, and all of it is said to be fixed.
+TEST(Governor, ExpectsNoLessOfADearerPoint) {
+    Governor governor(table);
+    for (int i = 0; i < Governor::settle_frames + Governor::frames_kept; ++i)
+        EXPECT_EQ(governor.frame(i < Governor::settle_frames + 21 ? 20 : 24, 3, 22, 24), 3u);
+    EXPECT_DOUBLE_EQ(governor.expected_ms(3), 20);
+    for (std::size_t point = 1; point < table.size(); ++point)
+        EXPECT_GE(governor.expected_ms(point), governor.expected_ms(point - 1)) << point;
 }
 
 TEST(Governor, DoesNotSwingUnderNoiseAndSpikes) {

@@ -179,13 +179,13 @@ TEST(TradeoffTable, BarsCompareAtEqualTimeAndAtEqualError) {
     // baseline: noise 0.8 at one sample in a time of 2, bias 0.02.
     std::vector<TradeoffRow> rows;
     for (const int n : baseline_samples) rows.push_back(row(baseline_with(n), 2.0 * n, 0.02 + 0.8 / n, 0.02));
-    rows.push_back(row(configuration_of(Quality::Balanced), 1, 0.04, 0.01));
+    rows.push_back(row(configuration_of(Quality::Balanced), 1, 0.12, 0.01));
     auto bars = tradeoff_bars(rows);
     ASSERT_EQ(bars.size(), 1u);
     EXPECT_TRUE(bars[0].at_least);
-    EXPECT_NEAR(bars[0].error_ratio, 0.82 / 0.04, 1e-9);
+    EXPECT_NEAR(bars[0].error_ratio, 0.82 / 0.12, 1e-9);
     ASSERT_TRUE(bars[0].baseline_ms);
-    EXPECT_NEAR(*bars[0].baseline_ms, 100 * 2 * 0.8 / 0.02, 1000);  // 40 samples, between two measured
+    EXPECT_NEAR(*bars[0].baseline_ms, 100 * 2 * 0.8 / 0.1, 200);  // 8 samples, between two measured
     EXPECT_FALSE(bars[0].extrapolated);
     // Slower than baseline: it may take as many samples as fit.
     rows.back() = row(configuration_of(Quality::Balanced), 8, 0.021, 0.01);
