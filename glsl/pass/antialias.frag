@@ -3,8 +3,8 @@
 #include "lib/math.glsl"
 #include "lib/nearest_surface.glsl"
 
-layout(rgba32f, binding = IMAGE_ANTIALIAS_RADIANCE) readonly restrict uniform image2D radiance;
-layout(rgba32f, binding = IMAGE_ANTIALIAS_SURFACE) readonly restrict uniform image2D surface;  // lib/surface.glsl
+layout(rgba32f, binding = IMAGE_RADIANCE) readonly restrict uniform image2D radiance;
+layout(rgba32f, binding = IMAGE_SURFACE) readonly restrict uniform image2D surface;  // lib/surface.glsl
 
 // Sub-samples of a pixel, n, and their lattice: the i-th of n columns is taken in the row (n + 1) fract((i + 1) y) - 1.
 uniform vec2 pattern;  // n, y

@@ -1,12 +1,15 @@
 // A blur against noise. FILTER_GAUSSIAN: one direction of a separable one of 5 taps, over everything. Otherwise one pass
 // of taps around the pixel, within one surface of one material; fewer and weaker the more frames a pixel has.
+#include "shared/bindings.h"
 #include "shared/frame.h"
 #include "lib/materials.glsl"
 #include "lib/math.glsl"
 #include "lib/surface.glsl"
 
-layout(binding = 4) uniform sampler2D radiance;  // rgb; a: frames kept
-layout(binding = 5) uniform sampler2D surface;
+layout(rgba32f, binding = IMAGE_RADIANCE) readonly restrict uniform image2D radiance;  // rgb; a: frames kept
+#ifndef FILTER_GAUSSIAN
+layout(rgba32f, binding = IMAGE_SURFACE) readonly restrict uniform image2D surface;
+#endif
 
 uniform ivec2 step_px;  // distance of neighbouring taps; Gaussian: and direction
 
@@ -41,16 +44,16 @@ ivec2 place_of(int tap) {
 
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
-    ivec2 last = textureSize(radiance, 0) - 1;
-    vec4 center = texelFetch(radiance, at, 0);
+    ivec2 last = imageSize(radiance) - 1;
+    vec4 center = imageLoad(radiance, at);
 #ifdef FILTER_GAUSSIAN
     vec3 sum = center.rgb * KERNEL[0];
     for (int i = -2; i <= 2; ++i) {
-        if (i != 0) sum += texelFetch(radiance, clamp(at + i * step_px, ivec2(0), last), 0).rgb * KERNEL[abs(i)];
+        if (i != 0) sum += imageLoad(radiance, clamp(at + i * step_px, ivec2(0), last)).rgb * KERNEL[abs(i)];
     }
     out_radiance = vec4(sum, center.a);
 #else
-    vec4 here = texelFetch(surface, at, 0);
+    vec4 here = imageLoad(surface, at);
     vec3 n = surface_normal(here.w);
     float tolerance = plane_tolerance(here, frame.camera_position_vox.xyz);
     bool wide = step_px.x > 1;
@@ -67,8 +70,8 @@ void main() {
         ivec2 tap = at + step_px * place_of(i);
         // At the picture's edge a tap may meet a pixel twice: no harm.
         tap = clamp(tap, ivec2(0), last);
-        bool meets = lies_on(here, texelFetch(surface, tap, 0), n, tolerance);
-        vec3 value = meets ? texelFetch(radiance, tap, 0).rgb : vec3(0.0);
+        bool meets = lies_on(here, imageLoad(surface, tap), n, tolerance);
+        vec3 value = meets ? imageLoad(radiance, tap).rgb : vec3(0.0);
         float w = strength * RING_WEIGHT[i >> 2] * exp(-abs(luminance(value) - center_luminance) * fall_off);
         if (!meets) w = 0.0;
         sum += w * value;

@@ -10,11 +10,11 @@
 #include "lib/scatter.glsl"
 #endif
 
-layout(binding = BINDING_BRICK_CHANGED) uniform usampler3D brick_changed;
-layout(binding = 4) uniform sampler2D radiance;
-layout(binding = 5) uniform sampler2D surface;
-layout(binding = 6) uniform sampler2D previous_radiance;  // rgb; a: frames kept
-layout(binding = 7) uniform sampler2D previous_surface;
+layout(r32ui, binding = IMAGE_BRICK_CHANGED) readonly restrict uniform uimage3D brick_changed;
+layout(rgba32f, binding = IMAGE_RADIANCE) readonly restrict uniform image2D radiance;
+layout(rgba32f, binding = IMAGE_SURFACE) readonly restrict uniform image2D surface;
+layout(rgba32f, binding = IMAGE_PREVIOUS_RADIANCE) readonly restrict uniform image2D previous_radiance;  // rgb; a: frames kept
+layout(rgba32f, binding = IMAGE_PREVIOUS_SURFACE) readonly restrict uniform image2D previous_surface;
 
 #ifdef HISTORY_UPSAMPLE
 layout(location = 1) out vec4 out_surface;
@@ -101,7 +101,7 @@ float frames_kept_of_image(vec3 at_vox, uint id, vec3 n, float height_px) {
 
 bool changed_since(vec3 at_vox) {
     ivec3 cell = clamp(ivec3(floor(at_vox)), ivec3(0), frame.world_size_vox.xyz - 1);
-    uint stamp = texelFetch(brick_changed, cell >> BRICK_SHIFT, 0).r;
+    uint stamp = imageLoad(brick_changed, cell >> BRICK_SHIFT).r;
     // Stamps wrap: compare by signed difference.
     return int(stamp - previous_version) > 0;
 }
@@ -139,7 +139,7 @@ Traced traced_around(ivec2 at) {
         ivec2 away = shown_pixel(traced.taps[k]) - at;
         vec2 near = max(vec2(0.0), 1.0 - abs(vec2(away)) / cell);
         traced.weights[k] = near.x * near.y + 1e-3;
-        seen[k] = texelFetch(surface, traced.taps[k], 0);
+        seen[k] = imageLoad(surface, traced.taps[k]);
         own[k] = float(away == ivec2(0));
         if (away == ivec2(0)) traced.surface = seen[k];
     }
@@ -162,7 +162,7 @@ Traced traced_around(ivec2 at) {
                     all(lessThan(abs(before), vec2(1.0)));
     vec2 at_before = (before * 0.5 + 0.5) * size;
     if (was_seen && !search)
-        search = !lies_on(seen[0], texelFetch(previous_surface, ivec2(at_before), 0), n, tolerance);
+        search = !lies_on(seen[0], imageLoad(previous_surface, ivec2(at_before)), n, tolerance);
     // A loop that runs at most once: llvmpipe runs the body of a branch for lanes that do not take it.
     for (bool once = search; once; once = false) {
         float t;
@@ -172,7 +172,7 @@ Traced traced_around(ivec2 at) {
             vec4 seen_before[4];
             for (int k = 0; k < 4; ++k) {
                 ivec2 tap = clamp(corner + ivec2(k & 1, k >> 1), ivec2(0), frame.size_px.zw - 1);
-                seen_before[k] = texelFetch(previous_surface, tap, 0);
+                seen_before[k] = imageLoad(previous_surface, tap);
             }
             float t_before;
             vec4 found = nearest_surface(seen_before, eye, dir, t_before);
@@ -190,14 +190,14 @@ Traced traced_around(ivec2 at) {
 
 vec3 light_of(Traced traced) {
     vec3 sum = vec3(0.0);
-    for (int k = 0; k < 4; ++k) sum += traced.weights[k] * texelFetch(radiance, traced.taps[k], 0).rgb;
+    for (int k = 0; k < 4; ++k) sum += traced.weights[k] * imageLoad(radiance, traced.taps[k]).rgb;
     return sum;
 }
 #else
 Traced traced_around(ivec2 at) {
-    return Traced(texelFetch(surface, at, 0), ivec2[4](at, at, at, at), vec4(1.0, 0.0, 0.0, 0.0), true, true);
+    return Traced(imageLoad(surface, at), ivec2[4](at, at, at, at), vec4(1.0, 0.0, 0.0, 0.0), true, true);
 }
-vec3 light_of(Traced traced) { return texelFetch(radiance, traced.taps[0], 0).rgb; }
+vec3 light_of(Traced traced) { return imageLoad(radiance, traced.taps[0]).rgb; }
 #define SAMPLES_A_FRAME 1.0
 #endif
 
@@ -216,7 +216,7 @@ void main() {
 #endif
     vec2 ndc;
     if (frame.world_size_vox.w != 0 && previous_ndc(here.xyz, ndc) && all(lessThan(abs(ndc), vec2(1.0)))) {
-        vec2 size = vec2(textureSize(previous_radiance, 0));
+        vec2 size = vec2(imageSize(previous_radiance));
         vec2 texel = (ndc * 0.5 + 0.5) * size - 0.5;
         // A still camera reprojects onto itself up to rounding; without this, history would creep and blur.
         vec2 nearest = round(texel);
@@ -230,8 +230,8 @@ void main() {
             vec2 w2 = mix(1.0 - f, f, vec2(k & 1, k >> 1));
             float w = w2.x * w2.y;
             if (w <= 0.0 || any(lessThan(tap, ivec2(0))) || any(greaterThanEqual(tap, ivec2(size)))) continue;
-            if (!lies_on(here, texelFetch(previous_surface, tap, 0), n, tolerance)) continue;
-            vec4 kept = texelFetch(previous_radiance, tap, 0);
+            if (!lies_on(here, imageLoad(previous_surface, tap), n, tolerance)) continue;
+            vec4 kept = imageLoad(previous_radiance, tap);
             if (!is_finite(kept.rgb) || !is_finite(kept.a)) {
                 ++rejected;
                 continue;
@@ -251,7 +251,7 @@ void main() {
         if (id != SURFACE_SKY && changed_since(here.xyz - 0.5 * n))
             count = min(count, SAMPLES_A_FRAME * FRAMES_KEPT_NEAR_CHANGE);
         if (shows_an_image(id))
-            count = min(count, SAMPLES_A_FRAME * frames_kept_of_image(here.xyz, id, n, float(textureSize(previous_radiance, 0).y)));
+            count = min(count, SAMPLES_A_FRAME * frames_kept_of_image(here.xyz, id, n, float(imageSize(previous_radiance).y)));
         count = min(count, frame.history.y - 1.0);
 #ifndef HISTORY_BLEND
         bool asked = is_retraced && !is_moving(here.w);

@@ -20,8 +20,11 @@
 #define IMAGE_BUILDING_HEAD 3
 #define IMAGE_BRICK_ROOMS 4
 #define IMAGE_BENCH_RAYS 5
-#define IMAGE_ANTIALIAS_RADIANCE 6
-#define IMAGE_ANTIALIAS_SURFACE 7
+// Images of the passes over pixels
+#define IMAGE_PREVIOUS_RADIANCE 2
+#define IMAGE_PREVIOUS_SURFACE 3
+#define IMAGE_RADIANCE 6
+#define IMAGE_SURFACE 7
 // Storage buffers of theirs; 0 is a pass's own
 #define STORAGE_CHANGED_TICK 1
 #define STORAGE_ACTIVE_NEXT 2

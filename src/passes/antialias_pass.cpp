@@ -33,8 +33,8 @@ AntialiasPass::AntialiasPass()
 void AntialiasPass::record(const Inputs& inputs, const Outputs& outputs, gl::Timers& timers) const {
     const auto scope = timers.scope("antialias");
     inputs.cells.bind_image(IMAGE_CELLS, GL_READ_ONLY);
-    inputs.surfaces.radiance.bind_image(IMAGE_ANTIALIAS_RADIANCE, GL_READ_ONLY);
-    inputs.surfaces.surface.bind_image(IMAGE_ANTIALIAS_SURFACE, GL_READ_ONLY);
+    inputs.surfaces.radiance.bind_image(IMAGE_RADIANCE, GL_READ_ONLY);
+    inputs.surfaces.surface.bind_image(IMAGE_SURFACE, GL_READ_ONLY);
     // The lattices of 1, 3 and 5 lie on diagonals.
     const int n = inputs.samples + inputs.samples % 2;
     const float stride = static_cast<float>(lattice_stride(n)) / static_cast<float>(n + 1);

@@ -16,8 +16,8 @@ FilterPass::FilterPass(bool gaussian)
 
 void FilterPass::record(const Inputs& inputs, const Outputs& outputs, gl::Timers& timers) const {
     const auto scope = timers.scope("filter");
-    inputs.surfaces.radiance.bind(BINDING_FIRST_INPUT);
-    if (!gaussian_) inputs.surfaces.surface.bind(BINDING_FIRST_INPUT + 1);
+    inputs.surfaces.radiance.bind_image(IMAGE_RADIANCE, GL_READ_ONLY);
+    if (!gaussian_) inputs.surfaces.surface.bind_image(IMAGE_SURFACE, GL_READ_ONLY);
     program_.set("step_px", inputs.step_px);
     program_.use();
     outputs.target.draw_fullscreen();

@@ -25,12 +25,12 @@ TemporalPass::TemporalPass(bool blend, bool moments, bool upsample)
 
 void TemporalPass::record(const Inputs& inputs, const Outputs& outputs, gl::Timers& timers) const {
     const auto scope = timers.scope("temporal");
-    inputs.brick_changed.bind(BINDING_BRICK_CHANGED);
-    if (upsample_) inputs.cells.bind(BINDING_CELLS);
-    inputs.current.radiance.bind(BINDING_FIRST_INPUT);
-    inputs.current.surface.bind(BINDING_FIRST_INPUT + 1);
-    inputs.previous.radiance.bind(BINDING_FIRST_INPUT + 2);
-    inputs.previous.surface.bind(BINDING_FIRST_INPUT + 3);
+    inputs.brick_changed.bind_image(IMAGE_BRICK_CHANGED, GL_READ_ONLY);
+    if (upsample_) inputs.cells.bind_image(IMAGE_CELLS, GL_READ_ONLY);
+    inputs.current.radiance.bind_image(IMAGE_RADIANCE, GL_READ_ONLY);
+    inputs.current.surface.bind_image(IMAGE_SURFACE, GL_READ_ONLY);
+    inputs.previous.radiance.bind_image(IMAGE_PREVIOUS_RADIANCE, GL_READ_ONLY);
+    inputs.previous.surface.bind_image(IMAGE_PREVIOUS_SURFACE, GL_READ_ONLY);
     inputs.rejected.bind_storage(0);
     if (!blend_) {
         if (inputs.retraced != nullptr) {
