@@ -1,5 +1,5 @@
-// The surface of a shown pixel, looked for among those that traced pixels around it and the last frame show: an eye ray
-// for every shown pixel costs more.
+// Of a surface that is looked for among those that pixels around it and the last frame show: an eye ray for every shown
+// pixel costs more.
 #include "lib/camera.glsl"
 #include "lib/materials.glsl"
 #include "lib/surface.glsl"
@@ -29,19 +29,4 @@ vec4 on_plane_of(vec4 seen, vec3 eye, vec3 dir) {
     vec3 n = surface_normal(seen.w);
     float along = seen.w == SURFACE_CODE_SKY ? 1e6 : dot(seen.xyz - eye, n) / dot(dir, n);
     return vec4(eye + clamp(along, 0.0, 1e6) * dir, seen.w);
-}
-
-// The nearest of four surfaces that the ray from the eye towards `dir` meets; where it meets none, the sky if it is among
-// them, or else the first. t: how far.
-vec4 nearest_surface(vec4 seen[4], vec3 eye, vec3 dir, out float t) {
-    vec4 found = seen[0];
-    t = TRAVERSAL_NEVER;
-    for (int k = 0; k < 4; ++k) {
-        float t_k = distance_to(seen[k], eye, dir);
-        if (t_k < t || (t_k == t && seen[k].w == SURFACE_CODE_SKY)) {
-            t = t_k;
-            found = seen[k];
-        }
-    }
-    return on_plane_of(found, eye, dir);
 }

@@ -124,6 +124,32 @@ const float SAMPLES_WITHOUT_NEIGHBOURS = 4.0;
 const float NEIGHBOURS_WORTH = 0.25;
 const float STRANGERS_WORTH = 1e-4;
 
+// The nearest surface along the ray from the eye towards `dir` among those that are asked for, a bit each: of the four
+// traced pixels from `base` on, then of the last frame's from `corner` on. Where it meets none of them, the sky if that
+// is among them, or else the first.
+vec4 surface_along(vec3 dir, uint asked, ivec2 base, ivec2 corner) {
+    ivec2 last = frame.size_px.xy - 1;
+    ivec2 last_shown = frame.size_px.zw - 1;
+    vec3 eye = frame.camera_position_vox.xyz;
+    vec4 nearest = vec4(0.0);
+    float t = 1.1 * TRAVERSAL_NEVER;
+    // One test a round: llvmpipe runs as many rounds as the pixel that has most needs.
+    while (asked != 0u) {
+        uint lowest = asked & (~asked + 1u);
+        asked ^= lowest;
+        int k = (floatBitsToInt(float(lowest)) >> 23) - 127;
+        ivec2 place = ivec2(k & 1, (k >> 1) & 1);
+        vec4 face = k < 4 ? imageLoad(surface, clamp(base + place, ivec2(0), last))
+                          : imageLoad(previous_surface, clamp(corner + place, ivec2(0), last_shown));
+        float t_k = distance_to(face, eye, dir);
+        if (t_k < t || (t_k == t && face.w == SURFACE_CODE_SKY)) {
+            t = t_k;
+            nearest = face;
+        }
+    }
+    return on_plane_of(nearest, eye, dir);
+}
+
 Traced traced_around(ivec2 at) {
     ivec2 last = frame.size_px.xy - 1;
     vec2 cell = vec2(frame.size_px.zw) / vec2(frame.size_px.xy);
@@ -154,8 +180,9 @@ Traced traced_around(ivec2 at) {
     traced.surface = on_plane_of(seen[0], eye, dir);
     vec3 n = surface_normal(seen[0].w);
     float tolerance = plane_tolerance(seen[0], eye);
-    bool search = false;
-    for (int k = 1; k < 4; ++k) search = search || !lies_on(seen[0], seen[k], n, tolerance);
+    uint others = 0u;
+    for (int k = 1; k < 4; ++k) others |= lies_on(seen[0], seen[k], n, tolerance) ? 0u : 1u << k;
+    bool search = others != 0u;
     // What is thinner than the gaps between traced pixels was seen when its turn came.
     vec2 before;
     bool was_seen = frame.world_size_vox.w != 0 && previous_ndc(traced.surface.xyz, before) &&
@@ -165,19 +192,9 @@ Traced traced_around(ivec2 at) {
         search = !lies_on(seen[0], imageLoad(previous_surface, ivec2(at_before)), n, tolerance);
     // A loop that runs at most once: llvmpipe runs the body of a branch for lanes that do not take it.
     for (bool once = search; once; once = false) {
-        float t;
-        traced.surface = nearest_surface(seen, eye, dir, t);
-        if (was_seen) {
-            ivec2 corner = ivec2(floor(at_before - 0.49));
-            vec4 seen_before[4];
-            for (int k = 0; k < 4; ++k) {
-                ivec2 tap = clamp(corner + ivec2(k & 1, k >> 1), ivec2(0), frame.size_px.zw - 1);
-                seen_before[k] = imageLoad(previous_surface, tap);
-            }
-            float t_before;
-            vec4 found = nearest_surface(seen_before, eye, dir, t_before);
-            if (t_before < t || (t == TRAVERSAL_NEVER && found.w == SURFACE_CODE_SKY)) traced.surface = found;
-        }
+        bool crept = any(greaterThan(abs(fract(at_before) - 0.5), vec2(0.01)));
+        uint before_too = !was_seen ? 0u : crept ? 0xf0u : 0x10u;
+        traced.surface = surface_along(dir, 1u | others | before_too, base, ivec2(floor(at_before - 0.49)));
         n = surface_normal(traced.surface.w);
         tolerance = plane_tolerance(traced.surface, eye);
         for (int k = 0; k < 4; ++k)
