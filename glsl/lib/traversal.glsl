@@ -93,7 +93,7 @@ Step step_of(uvec2 word, ivec3 cell, int room_shift) {
     uint block = half_mask >> (at & 10);
     bool is_clear = word.y == ROOM_CLEAR && word.x < ROOM_LEVELS_END;
     int level = is_clear ? int((word.x >> room_shift) & 7u) : 0;
-    int across = BRICK_SIDE << min(level, 5);  // of room_across
+    int across = BRICK_SIDE << min(level, 4);  // of room_across
     Step next;
     next.low = is_clear ? BRICK_SIDE - 1 : (block & 0x330033u) == 0u ? 1 : 0;
     // Of room_up: to the brick above the quarter.

@@ -10,7 +10,7 @@
 
 layout(local_size_x = CHANGES_PER_GROUP) in;
 
-layout(binding = BINDING_CELLS) uniform usampler3D cells;
+layout(r8ui, binding = 2) readonly restrict uniform uimage3D cells;
 // r: 1 where a cell is not air, g: 1 where a cell is not full water or lies beyond the world.
 layout(rg8ui, binding = 0) uniform uimage3D occupancy;
 layout(rg32ui, binding = 1) writeonly uniform uimage3D brick_rooms;
@@ -29,7 +29,7 @@ void main() {
     uvec3 bricks = uvec3(size_bricks);
     ivec3 brick = ivec3(id % bricks.x, id / bricks.x % bricks.y, id / (bricks.x * bricks.y));
     ivec3 first = brick * BRICK_SIDE;
-    ivec3 size = min(textureSize(cells, 0) - first, ivec3(BRICK_SIDE));
+    ivec3 size = min(imageSize(cells) - first, ivec3(BRICK_SIDE));
     uvec2 not_air = uvec2(0u);
     uvec2 not_water = uvec2(0u);
     bool moves = false;
@@ -37,7 +37,7 @@ void main() {
     for (int i = 0; i < 64; ++i) {
         ivec3 at = ivec3(i & 3, (i >> 2) & 3, i >> 4);
         bool within = all(lessThan(at, size));
-        uint cell = texelFetch(cells, first + min(at, size - 1), 0).r;
+        uint cell = imageLoad(cells, first + min(at, size - 1)).r;
         uvec2 bit = uvec2(i < 32 ? 1u << i : 0u, i < 32 ? 0u : 1u << (i - 32));
         if (within && cell != MATERIAL_AIR) not_air |= bit;
         if (!within || cell != MATERIAL_WATER_FULL) not_water |= bit;

@@ -9,15 +9,17 @@
 layout(local_size_x = 8, local_size_y = 8, local_size_z = 1) in;
 
 // y: occupancy; else the axis before. Full water lies behind air, but in the occupancy.
-layout(binding = BINDING_FIRST_INPUT) uniform usampler3D source;
 #if AXIS == 1
-layout(r8ui, binding = 0) uniform uimage3D target;  // 4 bits a count, from bit 4 b
+layout(rg8ui, binding = 1) readonly restrict uniform uimage3D source;
+layout(r8ui, binding = 0) restrict uniform uimage3D target;  // 4 bits a count, from bit 4 b
 #endif
 #if AXIS == 0
-layout(r16ui, binding = 0) uniform uimage3D target;  // from bit 4 (a + 2 b)
+layout(r8ui, binding = 1) readonly restrict uniform uimage3D source;
+layout(r16ui, binding = 0) restrict uniform uimage3D target;  // from bit 4 (a + 2 b)
 #endif
 #if AXIS == 2
-layout(rg32ui, binding = 0) uniform uimage3D target;  // the words
+layout(r16ui, binding = 1) readonly restrict uniform uimage3D source;
+layout(rg32ui, binding = 0) restrict uniform uimage3D target;  // the words
 #endif
 
 uniform ivec3 size_bricks;
@@ -29,7 +31,7 @@ int room_length(int level) { return AXIS == 1 ? room_up(level) : room_across(lev
 #if AXIS == 1
 const uvec2 LENGTHS = uvec2(0x02010101u, 0x20100804u);
 #else
-const uvec2 LENGTHS = uvec2(0x08040201u, 0x20202010u);
+const uvec2 LENGTHS = uvec2(0x08040201u, 0x10101010u);
 #endif
 uvec2 levels_from(int level) {
     return uvec2(level < 4 ? 0xffffffffu << (8 * level) : 0u, level < 8 ? 0xffffffffu << (8 * max(level - 4, 0)) : 0u);
@@ -41,9 +43,9 @@ int sum_of(uvec2 bytes) { return int(((bytes.x + bytes.y) * 0x01010101u) >> 24);
 // Levels clear at a brick for the axes before.
 int count_before(ivec3 brick, int medium, int way) {
 #if AXIS == 1
-    return texelFetch(source, brick, 0)[medium] == 0u ? ROOM_LEVELS : 0;
+    return imageLoad(source, brick)[medium] == 0u ? ROOM_LEVELS : 0;
 #else
-    return int(texelFetch(source, brick + ivec3(0, 0, medium * size_bricks.z), 0).r >> (4 * way) & 15u);
+    return int(imageLoad(source, brick + ivec3(0, 0, medium * size_bricks.z)).r >> (4 * way) & 15u);
 #endif
 }
 
@@ -100,7 +102,12 @@ void main() {
     uint even = (gl_NumWorkGroups.y + 1u) / 2u;
     uint group = gl_WorkGroupID.y;
     uint row = group < even ? 2u * group : 2u * (group - even) + 1u;
-    ivec2 at = ivec2(ROOM_LINES_AN_INVOCATION * gl_GlobalInvocationID.x,
+    // Along y and z neighbouring lanes take neighbouring lines, as those that are marked lie side by side; along x that
+    // took up to twice as long, for lines of other threads share a cache line.
+    bool apart = AXIS == 0;
+    int stride = apart ? 1 : int(gl_WorkGroupSize.x);
+    ivec2 at = ivec2(ROOM_LINES_AN_INVOCATION * gl_WorkGroupSize.x * gl_WorkGroupID.x +
+                         gl_LocalInvocationID.x * (apart ? ROOM_LINES_AN_INVOCATION : 1),
                      row * gl_WorkGroupSize.y + gl_LocalInvocationID.y);
     ivec3 first_brick = AXIS == 1 ? ivec3(at.x, 0, at.y) : AXIS == 0 ? ivec3(0, at.x, at.y) : ivec3(at.x, at.y, 0);
     int beside = AXIS == 0 ? 1 : 0;  // the axis from line to line
@@ -108,14 +115,14 @@ void main() {
     uint marked = 0u;
     for (int i = 0; i < ROOM_LINES_AN_INVOCATION; ++i) {
         ivec3 brick = first_brick;
-        brick[beside] += i;
+        brick[beside] += stride * i;
         bool within = all(lessThan(brick, size_bricks));
         int line = room_line_at(AXIS, min(brick, size_bricks - 1), size_bricks);
         marked |= within && room_lines[line] != 0u ? 1u << i : 0u;
     }
     while (marked != 0u) {
         ivec3 brick = first_brick;
-        brick[beside] += findLSB(marked);
+        brick[beside] += stride * findLSB(marked);
         int line = room_line_at(AXIS, brick, size_bricks);
         uint parts = room_lines[line];
         int part = findLSB(parts);

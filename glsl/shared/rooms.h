@@ -14,10 +14,10 @@ TARN_CONSTANT TARN_UINT ROOM_LEVELS_END = 0x1000000u;
 
 // A room has the brick in its corner and is of the medium alone; beyond the world all is air. Sides in bricks: flat
 // first, as ground and water are (primary rays over a lake take 7 steps, with cubes 11), then upright, for the open
-// sky. A change renews every room that it lies in: hence no longer ones. With up to 128 across and 32 up, primary rays
-// at 512^3 took 5 % fewer steps, diffuse ones 4 % more (`tarn bench --suite rays`).
+// sky. A change renews every room that it lies in: hence no longer ones. With up to 32 across, rays at 512^3 took 8 to
+// 17 % fewer steps and about as long, a stroke of the brush twice as long (`tarn bench --suite rays,edit --sizes 512`).
 TARN_CONSTANT int ROOM_LEVELS = 8;
-TARN_FUNCTION int room_across(int level) { return level < 5 ? 1 << level : 32; }
+TARN_FUNCTION int room_across(int level) { return level < 4 ? 1 << level : 16; }
 TARN_FUNCTION int room_up(int level) { return ((1 << level) + 3) >> 2; }
 
 // The word of a brick whose voxels that are not the medium are `mask`; of a clear one before its rooms are known.

@@ -53,7 +53,7 @@ void BricksPass::record(const Inputs& in, const Outputs& out, gl::Timers& timers
     in.activity.matter().bind_storage(STORAGE_MATTER);
     groups_.bind_storage(STORAGE_ROOM_GROUPS);
     lines_.bind_storage(STORAGE_ROOM_LINES);
-    in.cells.bind(BINDING_CELLS);
+    in.cells.bind_image(2, GL_READ_ONLY);
     occupancy_.bind_image(0, GL_READ_WRITE);
     out.brick_rooms.bind_image(1, GL_WRITE_ONLY);
     occupancy_program_.set("size_bricks", size_bricks);
@@ -73,7 +73,7 @@ void BricksPass::record(const Inputs& in, const Outputs& out, gl::Timers& timers
                              Step{2, rooms_side_, out.brick_rooms}}) {
         const gl::Program& program = rooms_program_[step.axis];
         program.set("size_bricks", size_bricks);
-        step.source.bind(BINDING_FIRST_INPUT);
+        step.source.bind_image(1, GL_READ_ONLY);
         step.target.bind_image(0, GL_READ_WRITE);
         program.use();
         glDispatchComputeIndirect(static_cast<GLintptr>(sizeof(glm::uvec3)) * step.axis);
