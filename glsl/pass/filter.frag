@@ -34,6 +34,9 @@ const float NOISY_FRAMES = 6.0;
 // Wider passes are for pixels that have next to no history.
 const float WIDE_FRAMES = 8.0;
 
+// Moving water has the light of a few paths, a dozen interfaces long: rings twice and four times as wide as well.
+const int MOVING_TAPS = 36;
+
 int taps_at(float frames) { return frames < FRAMES_OF_FAR_SIDES ? 12 : frames < FRAMES_OF_CORNERS ? 8 : 4; }
 
 ivec2 place_of(int tap) {
@@ -66,8 +69,11 @@ void main() {
     vec3 sum = center.rgb;
     float weight_sum = 1.0;
     int taps = here.w == SURFACE_CODE_SKY || strength == 0.0 ? 0 : taps_at(center.a);
-    for (int i = 0; i < taps; ++i) {
-        ivec2 tap = at + step_px * place_of(i);
+    if (is_moving(here.w)) taps = MOVING_TAPS;
+    for (int k = 0; k < taps; ++k) {
+        int wider = k / 12;
+        int i = k - 12 * wider;
+        ivec2 tap = at + (step_px << wider) * place_of(i);
         // At the picture's edge a tap may meet a pixel twice: no harm.
         tap = clamp(tap, ivec2(0), last);
         bool meets = lies_on(here, imageLoad(surface, tap), n, tolerance);
