@@ -55,7 +55,9 @@ const float FRAMES_KEPT_NEAR_CHANGE = 3.0;
 float frames_kept_of_light(vec2 ndc, bool asked) {
     ivec2 last = textureSize(retraced, 0) - 1;
     ivec2 last_traced = textureSize(traced_before, 0) - 1;
-    ivec2 base = ivec2(floor((ndc * 0.5 + 0.5) * vec2(last_traced + 1) / float(RETRACE_STRIDE) - 0.5));
+    vec2 between = (ndc * 0.5 + 0.5) * vec2(last_traced + 1) / float(RETRACE_STRIDE) - 0.5;
+    ivec2 base = ivec2(floor(between));
+    vec2 f = between - vec2(base);
     float difference = 0.0;
     float sum = 1e-20;
     // Where no lane asks, llvmpipe pays for one round.
@@ -65,8 +67,9 @@ float frames_kept_of_light(vec2 ndc, bool asked) {
         ivec2 pixel = min(cell * int(RETRACE_STRIDE) + int(RETRACE_STRIDE) / 2, last_traced);
         float now = luminance(texelFetch(retraced, cell, 0).rgb);
         float before = luminance(texelFetch(traced_before, pixel, 0).rgb);
-        difference += abs(now - before);
-        sum += max(now, before);
+        vec2 w = mix(1.0 - f, f, vec2(k & 1, k >> 1));
+        difference += w.x * w.y * abs(now - before);
+        sum += w.x * w.y * max(now, before);
     }
     float share = min(1.0, difference / sum);
     return is_finite(share) ? 1.0 / max(share * share, 1e-6) - 0.9 : 0.1;
