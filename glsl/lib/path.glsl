@@ -26,6 +26,9 @@ const float ROULETTE_SURVIVAL = 2.0;
 // interfaces, chance would end half of them, and what comes through flicker.
 const int BOUNCES_UNAIDED = 64;
 
+// So far away counts what is mirrored or seen beyond the world.
+const float IMAGE_FAR_VOX = 1e6;
+
 // Low steps of smooth water that a path passes at most; then they scatter as the faces they are.
 const int WATER_STEPS_PASSED_MAX = 64;
 
@@ -34,11 +37,14 @@ struct FirstSurface {
     vec3 normal;        // 0 for sky
     float distance_vox;
     uint material;      // id; SURFACE_SKY for sky
+    // What a smooth surface shows, by one scattering: how far behind it that seems to lie along the ray of the eye;
+    // negative: mirrored; 0: nothing or not known
+    float image_vox;
 };
 
 // Radiance along the ray of the eye from `eye_vox` towards `dir` (unit).
 vec3 trace_path(vec3 eye_vox, vec3 dir, out FirstSurface first) {
-    first = FirstSurface(eye_vox + dir * 1e6, vec3(0.0), 1e6, SURFACE_SKY);
+    first = FirstSurface(eye_vox + dir * 1e6, vec3(0.0), 1e6, SURFACE_SKY, 0.0);
     float t_entry;
     RayStart ray;
     vec3 light = vec3(0.0);
@@ -56,7 +62,7 @@ vec3 trace_path(vec3 eye_vox, vec3 dir, out FirstSurface first) {
     if (!enter_world(eye_vox, dir, ray, t_entry))
         return sky_radiance(dir) + (in_sun_disc(dir) ? frame.sun_radiance.rgb : vec3(0.0));
     if (!transmits(ray.medium)) {  // the eye is inside a solid
-        first = FirstSurface(eye_vox, vec3(0.0), 0.0, ray.medium);
+        first = FirstSurface(eye_vox, vec3(0.0), 0.0, ray.medium, 0.0);
         return vec3(0.0);
     }
     float t_max = frame.trace_limits.x;
@@ -72,8 +78,11 @@ vec3 trace_path(vec3 eye_vox, vec3 dir, out FirstSurface first) {
     int steps_passed = 0;
 #endif
     int diffuse_bounces = 0;
+    float image_scale = 0.0;  // of image_vox over the way from the first surface
+    float image_way = 0.0;
     for (int bounce = 0;; ++bounce) {
         RayHit hit = trace_ray(ray, dir, t_max);
+        image_way += hit.t;
 #ifdef TRACE_COUNT
         path_bounces = bounce;
 #endif
@@ -81,6 +90,7 @@ vec3 trace_path(vec3 eye_vox, vec3 dir, out FirstSurface first) {
         throughput *= exp(-absorption * hit.t);
 #endif
         if (hit.kind == HIT_NONE) {
+            if (bounce == 1) first.image_vox = image_scale * IMAGE_FAR_VOX;
             float sky_weight = sky_pdf_last > 0.0 ? power_heuristic(pdf_last, sky_pdf_last) : 1.0;
             float sun_weight = sun_state == SUN_SEEN ? 1.0 : 0.0;
             if (sun_state == SUN_SAMPLED) sun_weight = power_heuristic(pdf_last, 1.0 / frame.sun_irradiance.w);
@@ -115,7 +125,7 @@ vec3 trace_path(vec3 eye_vox, vec3 dir, out FirstSurface first) {
 #endif
         if (bounce == 0) {
             uint shown = hit.beyond == MATERIAL_AIR ? ray.medium : hit.beyond;
-            first = FirstSurface(v.start.origin_vox, axis_vector(v.axis, v.side), t_entry + hit.t, shown);
+            first = FirstSurface(v.start.origin_vox, axis_vector(v.axis, v.side), t_entry + hit.t, shown, 0.0);
         }
         Material beyond = materials[hit.beyond];
         vec3 emitted = beyond.emission_metallic.rgb;
@@ -130,6 +140,7 @@ vec3 trace_path(vec3 eye_vox, vec3 dir, out FirstSurface first) {
         v.wo = vertex_local(v, -dir);
         v.surface = surface_of(beyond, hit.beyond, ray.medium, medium_ior);
         bool delta = v.surface.transmissive && is_smooth(v.surface);
+        if (bounce == 1 && !delta) first.image_vox = image_scale * image_way;
         if (!delta && diffuse_bounces >= frame.trace_options.z) break;
 
 #ifdef TRACE_SUN
@@ -185,6 +196,11 @@ vec3 trace_path(vec3 eye_vox, vec3 dir, out FirstSurface first) {
 #ifdef TRACE_CLEAR
             absorption = beyond.absorption_ior.xyz * frame.trace_limits.y;
 #endif
+        }
+        if (bounce == 0) {
+            // A point seen through a plane lies by its way over the index along the ray (sines to the normal).
+            image_scale = next.pdf > 0.0 ? 0.0 : transmitted ? eye_ior / medium_ior : -1.0;
+            image_way = 0.0;
         }
         dir = normalize(vertex_world(v, next.wi));
 #ifdef TRACE_SMOOTH_WATER

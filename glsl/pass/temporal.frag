@@ -76,31 +76,19 @@ float frames_kept_of_light(vec2 ndc, bool asked) {
 }
 #endif
 
-// What is seen in or through a smooth surface glides over it as the eye moves. History may lag behind by this many pixels.
+// What is seen in or through a smooth surface glides over it as the eye moves. History follows the brighter of what water
+// mirrors and what lies under it, and may lag behind the other by this many pixels.
 const float IMAGE_LAG_PX = 3.0;
+// By this share of its way it fails to follow, for paths tell of its distance roughly.
+const float IMAGE_MISSED = 0.1;
 
 bool shows_an_image(uint id) {
     return id != SURFACE_SKY && (transmits(id) || materials[id].emission_metallic.w > 0.5);
 }
 
-// Under a level surface the bed seems to lie so deep. Lakes are as deep as that or less so near their shores.
+// Where no path told, the bed seems to lie so deep under a level surface. Lakes are that deep or less near their shores.
 const float BED_DEPTH_VOX = 9.0;
 const float MIRRORED_AT_NORMAL = 0.02;  // by water
-
-// Frames that may be kept of an image in the surface of normal n at `at_vox`: a far one glides by the angle that the
-// eye's way spans there, the bed under a level surface by less. Turning the eye moves nothing.
-float frames_kept_of_image(vec3 at_vox, uint id, vec3 n, float height_px) {
-    vec3 to_surface = at_vox - frame.camera_position_vox.xyz;
-    vec3 now = normalize(to_surface);
-    vec3 before = normalize(at_vox - frame.previous_position_vox.xyz);
-    float pixels = distance(now, before) * 0.5 * height_px / length(frame.camera_up.xyz);
-    bool over_a_bed = id == MATERIAL_WATER && n.y > 0.5;
-    float grazing = 1.0 - abs(now.y);
-    float squared = grazing * grazing;
-    float mirrored = over_a_bed ? MIRRORED_AT_NORMAL + (1.0 - MIRRORED_AT_NORMAL) * squared * squared * grazing : 1.0;
-    float glides = mix(BED_DEPTH_VOX / (length(to_surface) + BED_DEPTH_VOX), 1.0, mirrored);
-    return IMAGE_LAG_PX / max(pixels * glides, 1e-6);
-}
 
 bool changed_since(vec3 at_vox) {
     ivec3 cell = clamp(ivec3(floor(at_vox)), ivec3(0), frame.world_size_vox.xyz - 1);
@@ -112,7 +100,7 @@ bool changed_since(vec3 at_vox) {
 // The traced pixels that this frame has for a shown one.
 struct Traced {
     vec4 surface;    // of the shown pixel
-    ivec2 taps[4];   // around it
+    ivec2 taps[4];   // around it or beside it
     vec4 weights;    // of their light; all of it where one of them was traced for this pixel
     bool own;        // that is so
     bool met;        // some of them show its surface
@@ -215,11 +203,54 @@ vec3 light_of(Traced traced) {
 }
 #else
 Traced traced_around(ivec2 at) {
-    return Traced(imageLoad(surface, at), ivec2[4](at, at, at, at), vec4(1.0, 0.0, 0.0, 0.0), true, true);
+    ivec2 beside = min(at + 1, frame.size_px.xy - 1);
+    ivec2 taps[4] = ivec2[4](at, ivec2(beside.x, at.y), ivec2(at.x, beside.y), max(at - 1, ivec2(0)));
+    return Traced(imageLoad(surface, at), taps, vec4(1.0, 0.0, 0.0, 0.0), true, true);
 }
 vec3 light_of(Traced traced) { return imageLoad(radiance, traced.taps[0]).rgb; }
 #define SAMPLES_A_FRAME 1.0
 #endif
+
+// How far behind the surface of normal n that the pixel shows its image seems to lie, what it mirrors or what is behind it;
+// 0 where no path told.
+float image_behind(Traced traced, vec3 n, float tolerance, bool mirrored) {
+    float count = 0.0;
+    float inverse = 1e-20;
+    for (int k = 0; k < 4; ++k) {
+        float behind = imageLoad(radiance, traced.taps[k]).a * (mirrored ? -1.0 : 1.0);
+        bool tells = behind > 0.0 && lies_on(traced.surface, imageLoad(surface, traced.taps[k]), n, tolerance);
+        count += tells ? 1.0 : 0.0;
+        inverse += tells ? 1.0 / behind : 0.0;
+    }
+    return count / inverse;
+}
+
+// Where to look for the history of a surface that shows an image, and how many frames of it may be kept: what lies far
+// behind glides by the angle that the eye's way spans at the surface, what lies near by less.
+struct Image {
+    vec3 point_vox;
+    float frames_kept;
+};
+Image image_in(Traced traced, vec3 n, uint id, float tolerance, float height_px) {
+    vec3 at_vox = traced.surface.xyz;
+    vec3 to_surface = at_vox - frame.camera_position_vox.xyz;
+    float away = length(to_surface);
+    vec3 dir = to_surface / max(away, 1e-6);
+    float pixels = distance(dir, normalize(at_vox - frame.previous_position_vox.xyz)) * 0.5 * height_px / length(frame.camera_up.xyz);
+    bool over_a_bed = id == MATERIAL_WATER && n.y > 0.5;
+    float grazing = 1.0 - abs(dir.y);
+    float squared = grazing * grazing;
+    float mirrored = over_a_bed ? MIRRORED_AT_NORMAL + (1.0 - MIRRORED_AT_NORMAL) * squared * squared * grazing : 1.0;
+    bool mirror = mirrored > 0.5;
+    float bed = BED_DEPTH_VOX / (away + BED_DEPTH_VOX);
+    float behind = over_a_bed || !transmits(id) ? image_behind(traced, n, tolerance, mirror) : 0.0;
+    float glides = mix(bed, 1.0, mirrored);
+    if (behind > 0.0) {
+        float own = behind / (away + behind);
+        glides = (mirror ? (1.0 - mirrored) * abs(own - bed) : mirrored * (1.0 - own)) + IMAGE_MISSED * own;
+    }
+    return Image(at_vox + behind * dir, IMAGE_LAG_PX / max(pixels * glides, 1e-6));
+}
 
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
@@ -234,8 +265,14 @@ void main() {
 #ifdef HISTORY_MOMENTS
     vec3 moments = vec3(0.0);
 #endif
+    float tolerance = plane_tolerance(here, frame.camera_position_vox.xyz);
+    Image image = Image(here.xyz, 1e6);
+    // To turn the eye moves no image.
+    bool may_glide = frame.camera_position_vox.xyz != frame.previous_position_vox.xyz && shows_an_image(id) && !is_moving(here.w);
+    for (bool once = may_glide; once; once = false)
+        image = image_in(traced, n, id, tolerance, float(imageSize(previous_radiance).y));
     vec2 ndc;
-    if (frame.world_size_vox.w != 0 && previous_ndc(here.xyz, ndc) && all(lessThan(abs(ndc), vec2(1.0)))) {
+    if (frame.world_size_vox.w != 0 && previous_ndc(image.point_vox, ndc) && all(lessThan(abs(ndc), vec2(1.0)))) {
         vec2 size = vec2(imageSize(previous_radiance));
         vec2 texel = (ndc * 0.5 + 0.5) * size - 0.5;
         // A still camera reprojects onto itself up to rounding; without this, history would creep and blur.
@@ -243,7 +280,6 @@ void main() {
         if (all(lessThan(abs(texel - nearest), vec2(0.01)))) texel = nearest;
         ivec2 base = ivec2(floor(texel));
         vec2 f = texel - vec2(base);
-        float tolerance = plane_tolerance(here, frame.camera_position_vox.xyz);
         int taps = f == vec2(0.0) ? 1 : 4;
         for (int k = 0; k < taps; ++k) {
             ivec2 tap = base + ivec2(k & 1, k >> 1);
@@ -270,8 +306,7 @@ void main() {
         count = history.a;
         if (id != SURFACE_SKY && changed_since(here.xyz - 0.5 * n))
             count = min(count, SAMPLES_A_FRAME * FRAMES_KEPT_NEAR_CHANGE);
-        if (shows_an_image(id))
-            count = min(count, SAMPLES_A_FRAME * frames_kept_of_image(here.xyz, id, n, float(imageSize(previous_radiance).y)));
+        count = min(count, SAMPLES_A_FRAME * image.frames_kept);
         count = min(count, frame.history.y - 1.0);
 #ifndef HISTORY_BLEND
         bool asked = is_retraced && !is_moving(here.w);

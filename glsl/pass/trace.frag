@@ -4,7 +4,7 @@
 #include "lib/scatter.glsl"
 #include "lib/surface.glsl"
 
-layout(location = 0) out vec4 out_radiance;  // rgb; a: 1
+layout(location = 0) out vec4 out_radiance;  // rgb; a: image_vox of FirstSurface where asked for, else 1
 layout(location = 1) out vec4 out_surface;   // lib/surface.glsl
 #ifdef TRACE_COUNT
 layout(location = 2) out vec2 out_counts;    // bounces and steps, means over the paths
@@ -51,7 +51,7 @@ void main() {
         else
             atomicAdd(rejected_samples, 1u);
     }
-    out_radiance = vec4(sum, 1.0);
+    out_radiance = vec4(sum, option(OPTION_IMAGE_DISTANCE) ? first.image_vox : 1.0);
     out_surface = vec4(first.position_vox, surface_code(first.normal, first.material));
 #ifdef TRACE_CLEAR
     if (first.material == MATERIAL_WATER) {

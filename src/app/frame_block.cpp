@@ -68,6 +68,7 @@ FrameBlock make_frame_block(const FrameInputs& in) {
     if (s.low_discrepancy) options |= OPTION_LOW_DISCREPANCY;
     if (s.straight_sunlight) options |= OPTION_STRAIGHT_SUNLIGHT;
     if (in.scattered) options |= OPTION_SCATTER;
+    if (s.history == History::Count || s.history == History::Blend) options |= OPTION_IMAGE_DISTANCE;
     if (s.sky_model == SkyModel::Preetham) {
         set_clear_sky(block, s);
         options |= OPTION_PREETHAM_SKY;

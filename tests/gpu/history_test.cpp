@@ -258,5 +258,75 @@ TEST_F(HistoryTest, WhatIsNotFiniteInHistoryIsForgotten) {
     }
 }
 
+double mean_squared_error(const Picture& a, const Picture& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.image.pixels.size(); ++i)
+        sum += std::pow(double{a.image.pixels[i]} - b.image.pixels[i], 2);
+    return sum / static_cast<double>(a.image.pixels.size());
+}
+
+// Bars of two materials, three wide, across x at heights [low, high), along z in [from, to).
+std::string bars(int low, int high, int from, int to) {
+    std::string text;
+    for (int x = 0; x < 96; x += 3)
+        text += fmt::format(R"({{"box": {{"min": [{}, {}, {}], "max": [{}, {}, {}], "material": "{}"}}}},)",
+                            x, low, from, x + 3, high, to, x % 2 == 0 ? "wall" : "dirt");
+    return text;
+}
+
+// After a flight along x, in which the image glides over the surface: the error of the last picture over that
+// of one without history.
+double error_after_flight(Scene scene, float resolution_scale) {
+    scene.settings.history = History::Count;
+    scene.settings.history_cap = 32;
+    scene.settings.resolution_scale = resolution_scale;
+    constexpr glm::ivec2 size{96, 64};
+    constexpr int frames = 24;
+    Studio studio(scene);
+    Picture picture;
+    for (int frame = 0; frame < frames; ++frame) {
+        studio.settings().camera_position_vox.x += 0.25f;
+        picture = studio.shoot(size);
+    }
+    Settings exact = studio.settings();
+    exact.resolution_scale = 1;
+    exact.history = History::None;
+    Renderer fresh(studio.scene, studio.timers);
+    fresh.render(studio.simulation, exact, size);
+    const Picture single{fresh.read_radiance(), 0};
+    exact.history = History::Exact;
+    Renderer reference(studio.scene, studio.timers);
+    for (int frame = 0; frame < 256; ++frame) reference.render(studio.simulation, exact, size);
+    const Picture expected{reference.read_radiance(), 0};
+    return mean_squared_error(picture, expected) / mean_squared_error(single, expected);
+}
+
+TEST_F(HistoryTest, OnAFlightFollowsTheBedUnderWater) {
+    const Scene scene = plain_scene(
+        R"({"size": [96, 32, 48], "camera": {"position_vox": [40, 28, 44], "pitch_deg": -42, "fov_deg": 40},
+            "sun": {"azimuth_deg": 200, "elevation_deg": 60, "irradiance": [4, 4, 4]},
+            "build": [{"box": {"min": [0, 4, 0], "max": [96, 20, 48], "material": "water"}},)" +
+        bars(0, 4, 0, 48) + R"({"box": {"min": [0, 0, 0], "max": [96, 1, 48], "material": "stone"}}]})");
+    for (const float scale : {1.0f, 0.55f}) {
+        const double error = error_after_flight(scene, scale);
+        fmt::print("bed, scale {}: {:.3f} of the error of one frame\n", scale, error);
+        EXPECT_LT(error, 0.3) << scale;
+    }
+}
+
+TEST_F(HistoryTest, OnAFlightFollowsWhatAMirrorShows) {
+    const Scene scene = plain_scene(
+        R"({"size": [96, 32, 64], "camera": {"position_vox": [40, 16, 30], "pitch_deg": 0, "fov_deg": 12},
+            "sun": {"irradiance": [0, 0, 0]}, "sky": {"zenith": [6, 4, 2], "horizon": [0, 0, 0]},
+            "materials": {"metal": {"base_color": [1, 1, 1], "roughness": 0, "metallic": 1}},
+            "build": [{"box": {"min": [0, 0, 0], "max": [96, 32, 2], "material": "metal"}},)" +
+        bars(0, 32, 60, 64) + R"({"box": {"min": [0, 0, 2], "max": [96, 1, 64], "material": "stone"}}]})");
+    for (const float scale : {1.0f, 0.55f}) {
+        const double error = error_after_flight(scene, scale);
+        fmt::print("mirror, scale {}: {:.3f} of the error of one frame\n", scale, error);
+        EXPECT_LT(error, 0.15) << scale;
+    }
+}
+
 }  // namespace
 }  // namespace tarn
