@@ -159,17 +159,28 @@ std::string label_of(const Configuration& configuration) {
                        nearest.differs.empty() ? "" : " ", fmt::join(nearest.differs, " "));
 }
 
+namespace {
+
+std::vector<Configuration> neighbours_along(const Coordinate& coordinate,
+                                            const Configuration& configuration) {
+    std::vector<Configuration> neighbours;
+    if (is_idle(configuration, coordinate.key)) return neighbours;
+    const std::size_t at = index_of(coordinate.key);
+    for (const std::string& value : steps_along(coordinate, configuration.values[at])) {
+        Configuration next = configuration;
+        next.values[at] = value;
+        if (!same(next, configuration)) neighbours.push_back(canonical(next));
+    }
+    return neighbours;
+}
+
+}  // namespace
+
 std::vector<Configuration> neighbours_of(const Configuration& configuration) {
     std::vector<Configuration> neighbours;
-    for (const Coordinate& coordinate : tradeoff_coordinates()) {
-        if (is_idle(configuration, coordinate.key)) continue;
-        const std::size_t at = index_of(coordinate.key);
-        for (const std::string& value : steps_along(coordinate, configuration.values[at])) {
-            Configuration next = configuration;
-            next.values[at] = value;
-            if (!same(next, configuration)) neighbours.push_back(canonical(next));
-        }
-    }
+    for (const Coordinate& coordinate : tradeoff_coordinates())
+        for (Configuration& next : neighbours_along(coordinate, configuration))
+            neighbours.push_back(std::move(next));
     return neighbours;
 }
 
@@ -209,26 +220,39 @@ std::vector<Configuration> CoordinateSearch::next() {
         began_ = true;
         if (auto batch = fresh(starts_); !batch.empty()) return batch;
     }
+    const auto coordinates = tradeoff_coordinates();
     while (static_cast<int>(measured_.size()) < budget_) {
-        std::optional<Configuration> center;
-        if (next_start_ < starts_.size()) {
-            center = starts_[next_start_++];
+        std::vector<Configuration> wanted;
+        if (next_coordinate_ < coordinates.size()) {
+            const Coordinate& coordinate = coordinates[next_coordinate_++];
+            for (const Configuration& start : starts_)
+                for (Configuration& next : neighbours_along(coordinate, start))
+                    wanted.push_back(std::move(next));
         } else {
-            double least = std::numeric_limits<double>::infinity();
-            for (const std::size_t i : pareto_front(measured_)) {
-                const Measured& m = measured_[i];
-                const bool done = std::find(expanded_.begin(), expanded_.end(), canonical(m.configuration)) !=
-                                  expanded_.end();
-                if (done || m.time * m.error >= least) continue;
-                least = m.time * m.error;
-                center = m.configuration;
-            }
+            const auto center = best_unexpanded();
+            if (!center) return {};
+            expanded_.push_back(canonical(*center));
+            wanted = neighbours_of(*center);
         }
-        if (!center) return {};
-        expanded_.push_back(canonical(*center));
-        if (auto batch = fresh(neighbours_of(*center)); !batch.empty()) return batch;
+        if (auto batch = fresh(std::move(wanted)); !batch.empty()) return batch;
     }
     return {};
+}
+
+// The point of the front with the least time times error of those whose neighbours were not measured yet.
+std::optional<Configuration> CoordinateSearch::best_unexpanded() const {
+    std::optional<Configuration> best;
+    double least = std::numeric_limits<double>::infinity();
+    for (const std::size_t i : pareto_front(measured_)) {
+        const Measured& m = measured_[i];
+        const auto is_same = [&](const Configuration& other) { return same(m.configuration, other); };
+        if (std::any_of(expanded_.begin(), expanded_.end(), is_same) ||
+            std::any_of(starts_.begin(), starts_.end(), is_same) || m.time * m.error >= least)
+            continue;
+        least = m.time * m.error;
+        best = m.configuration;
+    }
+    return best;
 }
 
 void CoordinateSearch::report(std::span<const Measured> measured) {

@@ -1,6 +1,7 @@
 // The settings that trade speed for accuracy as a space to search: configurations, their neighbours along one
 // coordinate, and a search along the Pareto front. Measures nothing.
 #pragma once
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -52,9 +53,9 @@ struct Measured {
 // Indices of those that no other eligible one beats in both, by ascending time.
 std::vector<std::size_t> pareto_front(std::span<const Measured> measured);
 
-// Coordinate search: measures `starts`, then the neighbours of each start, then again and again those of the
-// point of the front that has the least time times error of those not yet searched; until the front has been
-// searched or `budget` configurations are measured.
+// Coordinate search: measures `starts`, then along one coordinate after the other the neighbours of all
+// starts, then again and again those of the point of the front that has the least time times error of those
+// not yet searched; until the front has been searched or `budget` configurations are measured.
 class CoordinateSearch {
   public:
     CoordinateSearch(std::vector<Configuration> starts, int budget);
@@ -67,8 +68,10 @@ class CoordinateSearch {
   private:
     std::vector<Configuration> fresh(std::vector<Configuration> wanted) const;
 
+    std::optional<Configuration> best_unexpanded() const;
+
     std::vector<Configuration> starts_, expanded_;
-    std::size_t next_start_ = 0;
+    std::size_t next_coordinate_ = 0;
     bool began_ = false;
     int budget_;
     std::vector<Measured> measured_;
