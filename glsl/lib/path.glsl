@@ -37,8 +37,8 @@ struct FirstSurface {
     vec3 normal;        // 0 for sky
     float distance_vox;
     uint material;      // id; SURFACE_SKY for sky
-    // What a smooth surface shows, by one scattering: how far behind it that seems to lie along the ray of the eye;
-    // negative: mirrored; 0: nothing or not known
+    // What a smooth surface mirrors (negative) or lets through, also through the far side of a pane: how far behind it
+    // that seems to lie along the ray of the eye; 0: nothing or not known
     float image_vox;
 };
 
@@ -78,11 +78,12 @@ vec3 trace_path(vec3 eye_vox, vec3 dir, out FirstSurface first) {
     int steps_passed = 0;
 #endif
     int diffuse_bounces = 0;
-    float image_scale = 0.0;  // of image_vox over the way from the first surface
-    float image_way = 0.0;
+    float image_vox = 0.0;
+    float image_scale = 0.0;  // its growth with the way; 0: scattered elsewhere
+    int image_axis = 0;
     for (int bounce = 0;; ++bounce) {
         RayHit hit = trace_ray(ray, dir, t_max);
-        image_way += hit.t;
+        image_vox += image_scale * hit.t;
 #ifdef TRACE_COUNT
         path_bounces = bounce;
 #endif
@@ -90,7 +91,7 @@ vec3 trace_path(vec3 eye_vox, vec3 dir, out FirstSurface first) {
         throughput *= exp(-absorption * hit.t);
 #endif
         if (hit.kind == HIT_NONE) {
-            if (bounce == 1) first.image_vox = image_scale * IMAGE_FAR_VOX;
+            if (image_scale != 0.0) first.image_vox = sign(image_scale) * IMAGE_FAR_VOX;
             float sky_weight = sky_pdf_last > 0.0 ? power_heuristic(pdf_last, sky_pdf_last) : 1.0;
             float sun_weight = sun_state == SUN_SEEN ? 1.0 : 0.0;
             if (sun_state == SUN_SAMPLED) sun_weight = power_heuristic(pdf_last, 1.0 / frame.sun_irradiance.w);
@@ -140,7 +141,7 @@ vec3 trace_path(vec3 eye_vox, vec3 dir, out FirstSurface first) {
         v.wo = vertex_local(v, -dir);
         v.surface = surface_of(beyond, hit.beyond, ray.medium, medium_ior);
         bool delta = v.surface.transmissive && is_smooth(v.surface);
-        if (bounce == 1 && !delta) first.image_vox = image_scale * image_way;
+        if (image_scale != 0.0 && !delta) first.image_vox = image_vox;
         if (!delta && diffuse_bounces >= frame.trace_options.z) break;
 
 #ifdef TRACE_SUN
@@ -197,11 +198,10 @@ vec3 trace_path(vec3 eye_vox, vec3 dir, out FirstSurface first) {
             absorption = beyond.absorption_ior.xyz * frame.trace_limits.y;
 #endif
         }
-        if (bounce == 0) {
-            // A point seen through a plane lies by its way over the index along the ray (sines to the normal).
-            image_scale = next.pdf > 0.0 ? 0.0 : transmitted ? eye_ior / medium_ior : -1.0;
-            image_way = 0.0;
-        }
+        if (bounce == 0) image_axis = v.axis;
+        // Seen through parallel planes a point lies by its way over the index along the ray (sines to the normal).
+        bool straight = bounce == 0 || (image_scale > 0.0 && transmitted && v.axis == image_axis);
+        image_scale = next.pdf > 0.0 || !straight ? 0.0 : transmitted ? eye_ior / medium_ior : -1.0;
         dir = normalize(vertex_world(v, next.wi));
 #ifdef TRACE_SMOOTH_WATER
         if (transmitted) ray.origin_vox = point;

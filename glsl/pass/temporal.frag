@@ -88,7 +88,7 @@ bool shows_an_image(uint id) {
 
 // Where no path told, the bed seems to lie so deep under a level surface. Lakes are that deep or less near their shores.
 const float BED_DEPTH_VOX = 9.0;
-const float MIRRORED_AT_NORMAL = 0.02;  // by water
+const float MIRRORED_AT_NORMAL = 0.03;  // by water, by glass about
 
 bool changed_since(vec3 at_vox) {
     ivec3 cell = clamp(ivec3(floor(at_vox)), ivec3(0), frame.world_size_vox.xyz - 1);
@@ -237,17 +237,17 @@ Image image_in(Traced traced, vec3 n, uint id, float tolerance, float height_px)
     float away = length(to_surface);
     vec3 dir = to_surface / max(away, 1e-6);
     float pixels = distance(dir, normalize(at_vox - frame.previous_position_vox.xyz)) * 0.5 * height_px / length(frame.camera_up.xyz);
-    bool over_a_bed = id == MATERIAL_WATER && n.y > 0.5;
-    float grazing = 1.0 - abs(dir.y);
+    float grazing = 1.0 - abs(dot(dir, n));
     float squared = grazing * grazing;
-    float mirrored = over_a_bed ? MIRRORED_AT_NORMAL + (1.0 - MIRRORED_AT_NORMAL) * squared * squared * grazing : 1.0;
+    float mirrored = transmits(id) ? MIRRORED_AT_NORMAL + (1.0 - MIRRORED_AT_NORMAL) * squared * squared * grazing : 1.0;
     bool mirror = mirrored > 0.5;
-    float bed = BED_DEPTH_VOX / (away + BED_DEPTH_VOX);
-    float behind = over_a_bed || !transmits(id) ? image_behind(traced, n, tolerance, mirror) : 0.0;
-    float glides = mix(bed, 1.0, mirrored);
+    bool over_a_bed = id == MATERIAL_WATER && n.y > 0.5;
+    float beyond = over_a_bed ? BED_DEPTH_VOX / (away + BED_DEPTH_VOX) : 1.0;
+    float behind = image_behind(traced, n, tolerance, mirror);
+    float glides = mix(beyond, 1.0, mirrored);
     if (behind > 0.0) {
         float own = behind / (away + behind);
-        glides = (mirror ? (1.0 - mirrored) * abs(own - bed) : mirrored * (1.0 - own)) + IMAGE_MISSED * own;
+        glides = (mirror ? (1.0 - mirrored) * abs(own - beyond) : mirrored * (1.0 - own)) + IMAGE_MISSED * own;
     }
     return Image(at_vox + behind * dir, IMAGE_LAG_PX / max(pixels * glides, 1e-6));
 }

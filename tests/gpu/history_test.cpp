@@ -328,5 +328,18 @@ TEST_F(HistoryTest, OnAFlightFollowsWhatAMirrorShows) {
     }
 }
 
+TEST_F(HistoryTest, OnAFlightFollowsWhatIsBehindAPane) {
+    const Scene scene = plain_scene(
+        R"({"size": [96, 32, 48], "camera": {"position_vox": [40, 16, 46], "pitch_deg": 0, "fov_deg": 20},
+            "sun": {"irradiance": [0, 0, 0]}, "sky": {"zenith": [6, 4, 2], "horizon": [0, 0, 0]},
+            "build": [{"box": {"min": [0, 0, 34], "max": [96, 32, 37], "material": "glass"}},)" +
+        bars(0, 32, 0, 4) + R"({"box": {"min": [0, 0, 4], "max": [96, 1, 34], "material": "stone"}}]})");
+    for (const float scale : {1.0f, 0.55f}) {
+        const double error = error_after_flight(scene, scale);
+        fmt::print("pane, scale {}: {:.3f} of the error of one frame\n", scale, error);
+        EXPECT_LT(error, 0.2) << scale;
+    }
+}
+
 }  // namespace
 }  // namespace tarn
