@@ -26,9 +26,6 @@ const float ROULETTE_SURVIVAL = 2.0;
 // interfaces, chance would end half of them, and what comes through flicker.
 const int BOUNCES_UNAIDED = 64;
 
-// So far away counts what is mirrored or seen beyond the world.
-const float IMAGE_FAR_VOX = 1e6;
-
 // Low steps of smooth water that a path passes at most; then they scatter as the faces they are.
 const int WATER_STEPS_PASSED_MAX = 64;
 
@@ -137,11 +134,11 @@ vec3 trace_path(vec3 eye_vox, vec3 dir, out FirstSurface first) {
             emitted *= emitter_weight(emitter_state, receiver, hit, v.start, pdf_last, met_at, above);
 #endif
         light += limited(throughput * emitted, bounce);
-        if (bounce >= frame.trace_options.x) break;
         v.wo = vertex_local(v, -dir);
         v.surface = surface_of(beyond, hit.beyond, ray.medium, medium_ior);
         bool delta = v.surface.transmissive && is_smooth(v.surface);
         if (image_scale != 0.0 && !delta) first.image_vox = image_vox;
+        if (bounce >= frame.trace_options.x) break;
         if (!delta && diffuse_bounces >= frame.trace_options.z) break;
 
 #ifdef TRACE_SUN

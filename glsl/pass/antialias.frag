@@ -1,7 +1,7 @@
 // Edges without more rays: the surface at each of a few sub-samples of a pixel is looked for among those that the pixel
 // and its neighbours show, and the sub-sample has their light.
 #include "lib/math.glsl"
-#include "lib/nearest_surface.glsl"
+#include "lib/face_on_ray.glsl"
 
 layout(rgba32f, binding = IMAGE_RADIANCE) readonly restrict uniform image2D radiance;
 layout(rgba32f, binding = IMAGE_SURFACE) readonly restrict uniform image2D surface;  // lib/surface.glsl

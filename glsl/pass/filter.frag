@@ -69,7 +69,7 @@ void main() {
     vec3 sum = center.rgb;
     float weight_sum = 1.0;
     int taps = here.w == SURFACE_CODE_SKY || strength == 0.0 ? 0 : taps_at(center.a);
-    if (is_moving(here.w)) taps = MOVING_TAPS;
+    if (is_moving(here.w) && strength > 0.0) taps = MOVING_TAPS;
     for (int k = 0; k < taps; ++k) {
         int wider = k / 12;
         int i = k - 12 * wider;

@@ -6,14 +6,15 @@
 #include "lib/math.glsl"
 #include "lib/surface.glsl"
 #ifdef HISTORY_UPSAMPLE
-#include "lib/nearest_surface.glsl"
+#include "lib/face_on_ray.glsl"
 #include "lib/scatter.glsl"
 #endif
 
 layout(r32ui, binding = IMAGE_BRICK_CHANGED) readonly restrict uniform uimage3D brick_changed;
 layout(rgba32f, binding = IMAGE_RADIANCE) readonly restrict uniform image2D radiance;
 layout(rgba32f, binding = IMAGE_SURFACE) readonly restrict uniform image2D surface;
-layout(rgba32f, binding = IMAGE_PREVIOUS_RADIANCE) readonly restrict uniform image2D previous_radiance;  // rgb; a: frames kept
+// rgb; a: frames kept
+layout(rgba32f, binding = IMAGE_PREVIOUS_RADIANCE) readonly restrict uniform image2D previous_radiance;
 layout(rgba32f, binding = IMAGE_PREVIOUS_SURFACE) readonly restrict uniform image2D previous_surface;
 
 #ifdef HISTORY_UPSAMPLE
@@ -76,11 +77,14 @@ float frames_kept_of_light(vec2 ndc, bool asked) {
 }
 #endif
 
-// What is seen in or through a smooth surface glides over it as the eye moves. History follows the brighter of what water
-// mirrors and what lies under it, and may lag behind the other by this many pixels.
+// What is seen in or through a smooth surface glides over it as the eye moves. History follows the brighter of what the
+// surface mirrors and what lies behind it, and may lag behind the other by this many pixels over its share of the light.
 const float IMAGE_LAG_PX = 3.0;
-// By this share of its way it fails to follow, for paths tell of its distance roughly.
+// By this share of its way history fails to follow, for paths tell of the distance roughly.
 const float IMAGE_MISSED = 0.1;
+// Likewise for what lies under water, whose image is no point, as the eye moves across its line of sight and along.
+const float BED_MISSED_ACROSS = 0.2;
+const float BED_MISSED_ALONG = 0.6;
 
 bool shows_an_image(uint id) {
     return id != SURFACE_SKY && (transmits(id) || materials[id].emission_metallic.w > 0.5);
@@ -185,7 +189,9 @@ Traced traced_around(ivec2 at) {
     for (bool once = search; once; once = false) {
         bool crept = any(greaterThan(abs(fract(at_before) - 0.5), vec2(0.01)));
         uint before_too = !was_seen ? 0u : crept ? 0xf0u : 0x10u;
-        traced.surface = surface_along(dir, 1u | others | before_too, base, ivec2(floor(at_before - 0.49)));
+        // What lies on one surface of water need not lie in one plane.
+        uint taps = surface_material(seen[0].w) == MATERIAL_WATER ? 15u : 1u | others;
+        traced.surface = surface_along(dir, taps | before_too, base, ivec2(floor(at_before - 0.49)));
         n = surface_normal(traced.surface.w);
         tolerance = plane_tolerance(traced.surface, eye);
         for (int k = 0; k < 4; ++k)
@@ -211,8 +217,8 @@ vec3 light_of(Traced traced) { return imageLoad(radiance, traced.taps[0]).rgb; }
 #define SAMPLES_A_FRAME 1.0
 #endif
 
-// How far behind the surface of normal n that the pixel shows its image seems to lie, what it mirrors or what is behind it;
-// 0 where no path told.
+// How far behind the surface of normal n that the pixel shows its image seems to lie, what it mirrors or what is behind
+// it; 0 where no path told.
 float image_behind(Traced traced, vec3 n, float tolerance, bool mirrored) {
     float count = 0.0;
     float inverse = 1e-20;
@@ -223,6 +229,15 @@ float image_behind(Traced traced, vec3 n, float tolerance, bool mirrored) {
         inverse += tells ? 1.0 / behind : 0.0;
     }
     return count / inverse;
+}
+
+// How much of the eye's way across `dir` lies in the plane of `dir` and n, as a share of its square.
+float share_along(vec3 dir, vec3 n) {
+    vec3 way = frame.camera_position_vox.xyz - frame.previous_position_vox.xyz;
+    way -= dot(way, dir) * dir;
+    vec3 along = n - dot(n, dir) * dir;
+    float both = dot(way, along);
+    return both * both / max(dot(way, way) * dot(along, along), 1e-20);
 }
 
 // Where to look for the history of a surface that shows an image, and how many frames of it may be kept: what lies far
@@ -236,18 +251,35 @@ Image image_in(Traced traced, vec3 n, uint id, float tolerance, float height_px)
     vec3 to_surface = at_vox - frame.camera_position_vox.xyz;
     float away = length(to_surface);
     vec3 dir = to_surface / max(away, 1e-6);
-    float pixels = distance(dir, normalize(at_vox - frame.previous_position_vox.xyz)) * 0.5 * height_px / length(frame.camera_up.xyz);
-    float grazing = 1.0 - abs(dot(dir, n));
+    vec3 dir_before = normalize(at_vox - frame.previous_position_vox.xyz);
+    float pixels = distance(dir, dir_before) * 0.5 * height_px / length(frame.camera_up.xyz);
+    float ior = materials[MATERIAL_WATER].absorption_ior.w;
+    float cosine = abs(dot(dir, n));
+    // From below the cosine in air counts; none is left where all is mirrored.
+    bool from_below = id == MATERIAL_WATER && n.y < -0.5;
+    if (from_below) cosine = sqrt(max(0.0, 1.0 - ior * ior * (1.0 - cosine * cosine)));
+    float grazing = 1.0 - cosine;
     float squared = grazing * grazing;
-    float mirrored = transmits(id) ? MIRRORED_AT_NORMAL + (1.0 - MIRRORED_AT_NORMAL) * squared * squared * grazing : 1.0;
+    float mirrored =
+        transmits(id) ? MIRRORED_AT_NORMAL + (1.0 - MIRRORED_AT_NORMAL) * squared * squared * grazing : 1.0;
     bool mirror = mirrored > 0.5;
     bool over_a_bed = id == MATERIAL_WATER && n.y > 0.5;
     float beyond = over_a_bed ? BED_DEPTH_VOX / (away + BED_DEPTH_VOX) : 1.0;
-    float behind = image_behind(traced, n, tolerance, mirror);
     float glides = mix(beyond, 1.0, mirrored);
+    float behind = is_moving(traced.surface.w) ? 0.0 : image_behind(traced, n, tolerance, mirror);
     if (behind > 0.0) {
-        float own = behind / (away + behind);
-        glides = (mirror ? (1.0 - mirrored) * abs(own - beyond) : mirrored * (1.0 - own)) + IMAGE_MISSED * own;
+        float missed = IMAGE_MISSED;
+        if (over_a_bed && !mirror) {
+            // Paths tell where a point lies for an eye that moves across (the sagittal image); along, it lies nearer.
+            float along = share_along(dir, n);
+            float squared_cosine = cosine * cosine;
+            behind *= mix(1.0, squared_cosine / max(1.0 - (1.0 - squared_cosine) / (ior * ior), 0.05), along);
+            missed = mix(BED_MISSED_ACROSS, BED_MISSED_ALONG, along);
+        }
+        float follows = behind / (away + behind);
+        glides = missed * follows + (mirror ? (1.0 - mirrored) * abs(follows - beyond) : mirrored * (1.0 - follows));
+    } else if (over_a_bed && !is_moving(traced.surface.w)) {
+        behind = mirror ? IMAGE_FAR_VOX : BED_DEPTH_VOX;
     }
     return Image(at_vox + behind * dir, IMAGE_LAG_PX / max(pixels * glides, 1e-6));
 }
@@ -268,8 +300,8 @@ void main() {
     float tolerance = plane_tolerance(here, frame.camera_position_vox.xyz);
     Image image = Image(here.xyz, 1e6);
     // To turn the eye moves no image.
-    bool may_glide = frame.camera_position_vox.xyz != frame.previous_position_vox.xyz && shows_an_image(id) && !is_moving(here.w);
-    for (bool once = may_glide; once; once = false)
+    bool eye_moved = frame.camera_position_vox.xyz != frame.previous_position_vox.xyz;
+    for (bool once = eye_moved && shows_an_image(id); once; once = false)
         image = image_in(traced, n, id, tolerance, float(imageSize(previous_radiance).y));
     vec2 ndc;
     if (frame.world_size_vox.w != 0 && previous_ndc(image.point_vox, ndc) && all(lessThan(abs(ndc), vec2(1.0)))) {

@@ -13,7 +13,10 @@ TARN_CONSTANT int OPTION_STRAIGHT_SUNLIGHT = 16;
 TARN_CONSTANT int OPTION_PREETHAM_SKY = 32;
 TARN_CONSTANT int OPTION_LOW_DISCREPANCY = 64;
 TARN_CONSTANT int OPTION_SCATTER = 128;  // lib/scatter.glsl
-TARN_CONSTANT int OPTION_IMAGE_DISTANCE = 256;
+TARN_CONSTANT int OPTION_IMAGE_DISTANCE = 256;  // beside the radiance, where no filter takes it for frames kept
+
+// So far away counts what is mirrored or seen beyond the world.
+TARN_CONSTANT float IMAGE_FAR_VOX = 1e6f;
 
 // Below this alpha (roughness^2) a surface is a perfect mirror or interface.
 TARN_CONSTANT float ALPHA_SMOOTH = 1e-3f;

@@ -26,6 +26,8 @@ constexpr Limit limits[] = {
     {"2D texture side", GL_MAX_TEXTURE_SIZE, 16384},
     {"compute invocations in a group", GL_MAX_COMPUTE_WORK_GROUP_INVOCATIONS, 256},
     {"image units in compute", GL_MAX_COMPUTE_IMAGE_UNIFORMS, 4},
+    {"image units in fragments", GL_MAX_FRAGMENT_IMAGE_UNIFORMS, 6},
+    {"images, storage blocks and outputs of a program", GL_MAX_COMBINED_SHADER_OUTPUT_RESOURCES, 10},
     {"storage blocks in compute", GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS, 4},
     {"storage blocks in fragments", GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS, 1},
     {"uniform block bytes", GL_MAX_UNIFORM_BLOCK_SIZE, 16384},

@@ -213,13 +213,16 @@ void LightTrade::run() {
     progress_ =
         std::make_unique<Progress>("configurations", static_cast<std::uint64_t>(arguments_.configurations) *
                                                          scenes_.size() * recordings_.size());
-    measure(baselines);
     Settings full;
     apply_quality(full, Quality::Balanced);
     full.resolution_scale = 1;
-    CoordinateSearch search({configuration_of(Quality::Balanced), configuration_of(Quality::Fast),
-                             configuration_of(Quality::Quality), configuration_of(full)},
-                            arguments_.configurations - static_cast<int>(baselines.size()));
+    const std::vector<Configuration> starts = {configuration_of(Quality::Balanced),
+                                               configuration_of(Quality::Fast),
+                                               configuration_of(Quality::Quality), configuration_of(full)};
+    // An interrupted run knows the qualities at least; baselines take longest.
+    if (arguments_.configurations >= static_cast<int>(starts.size() + baselines.size())) measure(starts);
+    measure(baselines);
+    CoordinateSearch search(starts, arguments_.configurations - static_cast<int>(baselines.size()));
     for (auto batch = search.next(); !batch.empty(); batch = search.next()) search.report(measure(batch));
     progress_.reset();
 }

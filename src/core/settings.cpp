@@ -34,7 +34,7 @@ struct PresetRow {
     std::array<const char*, 5> values;  // baseline, fast, balanced, quality, exact
 };
 constexpr PresetRow presets[] = {{"max_bounces", {"8", "16", "24", "64", "1024"}},
-                                 {"max_diffuse_bounces", {"1024", "1", "2", "6", "1024"}},
+                                 {"max_diffuse_bounces", {"1024", "1", "2", "3", "1024"}},
                                  {"max_distance_vox", {"4096", "4096", "4096", "4096", "10000000"}},
                                  {"samples_per_pixel", {"1", "1", "1", "2", "1"}},
                                  {"resolution_scale", {"1", "0.45", "0.55", "1", "1"}},
@@ -57,7 +57,7 @@ constexpr PresetRow presets[] = {{"max_bounces", {"8", "16", "24", "64", "1024"}
                                  {"refine_at_rest", {"false", "true", "true", "true", "false"}},
                                  {"filter", {"gaussian", "edge_aware", "edge_aware", "edge_aware", "none"}},
                                  {"filter_passes", {"1", "1", "1", "1", "1"}},
-                                 {"antialiasing", {"0", "0", "4", "4", "0"}}};
+                                 {"antialiasing", {"0", "0", "4", "8", "0"}}};
 
 double parse_number(const SettingInfo& info, std::string_view text) {
     double value = 0;

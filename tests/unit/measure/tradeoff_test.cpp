@@ -140,6 +140,33 @@ TEST(CoordinateSearch, KeepsItsBudgetMeasuresNothingTwiceAndImproves) {
     }
 }
 
+TEST(CoordinateSearch, GoesAlongOneCoordinateAfterTheOtherFromEveryStart) {
+    const std::vector<Configuration> starts = {configuration_of(Quality::Balanced),
+                                               configuration_of(Quality::Fast),
+                                               configuration_of(Quality::Quality)};
+    CoordinateSearch search(starts, 100);
+    const auto report = [&](const std::vector<Configuration>& batch) {
+        std::vector<Measured> measured;
+        for (const Configuration& c : batch) measured.push_back(made_up(c));
+        search.report(measured);
+    };
+    report(search.next());
+    for (const std::string key : {"resolution_scale", "samples_per_pixel"}) {
+        const auto batch = search.next();
+        for (const Configuration& start : starts)
+            EXPECT_TRUE(std::any_of(batch.begin(), batch.end(), [&](const Configuration& c) {
+                Settings moved, from;
+                apply(c, moved);
+                apply(start, from);
+                const SettingInfo& info = *find_setting(key);
+                if (info.get(moved) == info.get(from)) return false;
+                info.set(moved, info.get(from));
+                return configuration_of(moved) == start;
+            })) << key;
+        report(batch);
+    }
+}
+
 TradeoffRow row(const Configuration& c, double ratio, double error, double bias,
                 const char* recording = "still") {
     return {.program = "p1",

@@ -1,5 +1,5 @@
-// Of a surface that is looked for among those that pixels around it and the last frame show: an eye ray for every shown
-// pixel costs more.
+// Faces that pixels show, met by other rays of the eye: a surface is looked for among those of the pixels around it and of
+// the last frame, for an eye ray for every shown pixel costs more.
 #include "lib/camera.glsl"
 #include "lib/materials.glsl"
 #include "lib/surface.glsl"
