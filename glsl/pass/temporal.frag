@@ -69,11 +69,11 @@ float frames_kept_of_light(vec2 ndc, bool asked) {
         float now = luminance(texelFetch(retraced, cell, 0).rgb);
         float before = luminance(texelFetch(traced_before, pixel, 0).rgb);
         vec2 w = mix(1.0 - f, f, vec2(k & 1, k >> 1));
-        difference += w.x * w.y * abs(now - before);
-        sum += w.x * w.y * max(now, before);
+        difference += w.x * w.y * (now - before) * (now - before);
+        sum += w.x * w.y * max(now, before) * max(now, before);
     }
-    float share = min(1.0, difference / sum);
-    return is_finite(share) ? 1.0 / max(share * share, 1e-6) - 0.9 : 0.1;
+    float share_squared = min(1.0, difference / sum);
+    return is_finite(share_squared) ? 1.0 / max(share_squared, 1e-6) - 0.9 : 0.1;
 }
 #endif
 
