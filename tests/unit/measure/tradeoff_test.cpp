@@ -146,8 +146,8 @@ TEST(CoordinateSearch, GoesAlongOneCoordinateAfterTheOtherFromEveryStart) {
                                                configuration_of(Quality::Quality)};
     CoordinateSearch search(starts, 100);
     const auto report = [&](const std::vector<Configuration>& batch) {
-        std::vector<Measured> measured;
-        for (const Configuration& c : batch) measured.push_back(made_up(c));
+        std::vector<Measured> measured(batch.size());
+        std::transform(batch.begin(), batch.end(), measured.begin(), made_up);
         search.report(measured);
     };
     report(search.next());
