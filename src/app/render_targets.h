@@ -16,7 +16,7 @@ struct FrameTargets {
     FrameTargets() = default;
     explicit FrameTargets(glm::ivec2 size)
         : surface({.label = "surface", .format = GL_RGBA32F, .size = {size, 0}}),
-          history({.label = "history", .format = GL_RGBA32F, .size = {size, 0}, .linear = true}) {}
+          history({.label = "history", .format = GL_RGBA32F, .size = {size, 0}}) {}
 };
 
 // Sums of exact mode; two sets. The mean goes to `filtered`.
@@ -52,14 +52,12 @@ struct RenderTargets {
           picture_target("picture", {&picture}) {
         const glm::ivec2 kept = kept_px();
         for (gl::Texture& texture : filtered)
-            texture =
-                gl::Texture({.label = "filtered", .format = GL_RGBA32F, .size = {kept, 0}, .linear = true});
+            texture = gl::Texture({.label = "filtered", .format = GL_RGBA32F, .size = {kept, 0}});
         if (upsampled)
             traced_surface =
                 gl::Texture({.label = "traced surface", .format = GL_RGBA32F, .size = {traced, 0}});
         for (int i = 0; i < 2; ++i) {
-            radiance[i] =
-                gl::Texture({.label = "radiance", .format = GL_RGBA32F, .size = {traced, 0}, .linear = true});
+            radiance[i] = gl::Texture({.label = "radiance", .format = GL_RGBA32F, .size = {traced, 0}});
             frames[i] = FrameTargets(kept);
             trace_target[i] = gl::Framebuffer("trace", {&radiance[i], &traced_surface_of(i)});
             history_target[i] = upsampled
@@ -77,8 +75,7 @@ struct RenderTargets {
             sums_target[i] = gl::Framebuffer("sums", {&sums[i].sum, &sums[i].correction, &filtered[i]});
     }
     void add_antialiased() {
-        antialiased = gl::Texture(
-            {.label = "antialiased", .format = GL_RGBA32F, .size = {kept_px(), 0}, .linear = true});
+        antialiased = gl::Texture({.label = "antialiased", .format = GL_RGBA32F, .size = {kept_px(), 0}});
         antialias_target = gl::Framebuffer("antialias", {&antialiased});
     }
     glm::ivec2 kept_px() const { return upsampled ? shown_px : traced_px; }

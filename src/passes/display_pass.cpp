@@ -25,11 +25,11 @@ DisplayPass::DisplayPass(bool radiance_only, bool refined)
 
 void DisplayPass::record(const Inputs& inputs, const Outputs& outputs, gl::Timers& timers) const {
     const auto scope = timers.scope("display");
-    inputs.radiance.bind(BINDING_FIRST_INPUT);
+    inputs.radiance.bind_image(IMAGE_RADIANCE, GL_READ_ONLY);
     if (refined_) {
         CHECK(inputs.exact_mean != nullptr && inputs.exact_sum != nullptr);
-        inputs.exact_mean->bind(BINDING_FIRST_INPUT + 1);
-        inputs.exact_sum->bind(BINDING_FIRST_INPUT + 2);
+        inputs.exact_mean->bind(BINDING_FIRST_INPUT);
+        inputs.exact_sum->bind(BINDING_FIRST_INPUT + 1);
         program_.set("exact_samples", static_cast<float>(inputs.exact_samples));
     }
     program_.use();
