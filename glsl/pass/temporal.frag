@@ -119,6 +119,11 @@ const float SAMPLES_WITHOUT_NEIGHBOURS = 4.0;
 const float NEIGHBOURS_WORTH = 0.25;
 const float STRANGERS_WORTH = 1e-4;
 
+bool emits(vec4 face) {
+    uint id = surface_material(face.w);
+    return id != SURFACE_SKY && materials[id].emission_metallic.rgb != vec3(0.0);
+}
+
 // The nearest surface along the ray from the eye towards `dir` among those that are asked for, a bit each: of the four
 // traced pixels from `base` on, then of the last frame's from `corner` on. Where it meets none of them, the sky if that
 // is among them, or else the first.
@@ -137,7 +142,7 @@ vec4 surface_along(vec3 dir, uint asked, ivec2 base, ivec2 corner) {
         vec4 face = k < 4 ? imageLoad(surface, clamp(base + place, ivec2(0), last))
                           : imageLoad(previous_surface, clamp(corner + place, ivec2(0), last_shown));
         float t_k = distance_to(face, eye, dir);
-        if (t_k < t || (t_k == t && face.w == SURFACE_CODE_SKY)) {
+        if (t_k < t || (t_k == t && (face.w == SURFACE_CODE_SKY || emits(nearest)))) {
             t = t_k;
             nearest = face;
         }
