@@ -23,14 +23,19 @@ const uint PLACES_X[2] = uint[2](0x31132123u, 0x2024u);
 const uint PLACES_Y[2] = uint[2](0x11331232u, 0x0242u);
 const float RING_WEIGHT[3] = float[3](0.9, 0.7, 0.4);  // the pixel's own is 1
 // From so many frames on the rings around the first no longer pay.
-const float FRAMES_OF_CORNERS = 10.0;
-const float FRAMES_OF_FAR_SIDES = 5.0;
+const float FRAMES_OF_CORNERS = 4.0;
+const float FRAMES_OF_FAR_SIDES = 3.0;
+
+// With fewer frames stairs count as one surface: faces of one material and direction up to two voxels apart.
+const float FRAMES_OF_STAIRS = 3.0;
+const float STAIRS_VOX = 2.1;
 
 // With fewer frames the brightness of a pixel behind water says nothing yet.
 const float FRAMES_OF_NOISE = 12.0;
 
-// To here all neighbours count in full; then less, for there is less noise to trade for sharpness.
-const float NOISY_FRAMES = 6.0;
+// To here all neighbours count in full; then less, for there is less noise to trade for sharpness. To tell by each pixel's
+// variance in place of its frames gained nothing: of so few frames it is as noisy as the light.
+const float NOISY_FRAMES = 5.0;
 // Wider passes are for pixels that have next to no history.
 const float WIDE_FRAMES = 8.0;
 
@@ -66,6 +71,7 @@ void main() {
     bool clear = transmits(surface_material(here.w)) && center.a > FRAMES_OF_NOISE;
     float center_luminance = luminance(center.rgb);
     float fall_off = clear ? 1.0 / (0.1 + 0.25 * center_luminance) : 0.0;
+    float stairs_vox = center.a < FRAMES_OF_STAIRS ? STAIRS_VOX : 0.0;
     vec3 sum = center.rgb;
     float weight_sum = 1.0;
     int taps = here.w == SURFACE_CODE_SKY || strength == 0.0 ? 0 : taps_at(center.a);
@@ -76,7 +82,9 @@ void main() {
         ivec2 tap = at + (step_px << wider) * place_of(i);
         // At the picture's edge a tap may meet a pixel twice: no harm.
         tap = clamp(tap, ivec2(0), last);
-        bool meets = lies_on(here, imageLoad(surface, tap), n, tolerance);
+        vec4 there = imageLoad(surface, tap);
+        bool step_of_stairs = there.w == here.w && abs(dot(there.xyz - here.xyz, n)) <= stairs_vox;
+        bool meets = step_of_stairs || lies_on(here, there, n, tolerance);
         vec3 value = meets ? imageLoad(radiance, tap).rgb : vec3(0.0);
         float w = strength * RING_WEIGHT[i >> 2] * exp(-abs(luminance(value) - center_luminance) * fall_off);
         if (!meets) w = 0.0;

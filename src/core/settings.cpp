@@ -34,10 +34,10 @@ struct PresetRow {
     std::array<const char*, 5> values;  // baseline, fast, balanced, quality, exact
 };
 constexpr PresetRow presets[] = {{"max_bounces", {"8", "16", "24", "64", "1024"}},
-                                 {"max_diffuse_bounces", {"1024", "1", "2", "3", "1024"}},
+                                 {"max_diffuse_bounces", {"1024", "2", "2", "4", "1024"}},
                                  {"max_distance_vox", {"4096", "4096", "4096", "4096", "10000000"}},
                                  {"samples_per_pixel", {"1", "1", "1", "2", "1"}},
-                                 {"resolution_scale", {"1", "0.45", "0.55", "1", "1"}},
+                                 {"resolution_scale", {"1", "0.4", "0.55", "1", "1"}},
                                  {"guided_upsampling", {"false", "false", "true", "true", "true"}},
                                  {"traversal", {"voxel", "distance", "distance", "distance", "distance"}},
                                  {"light_sampling", {"none", "lights", "lights", "lights", "lights"}},
