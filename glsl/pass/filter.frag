@@ -1,5 +1,6 @@
 // A blur against noise. FILTER_GAUSSIAN: one direction of a separable one of 5 taps, over everything. Otherwise one pass
-// of taps around the pixel, within one surface of one material; fewer and weaker the more frames a pixel has.
+// of taps around the pixel, within one surface of one material (stairs count as one where a pixel has next to no history);
+// fewer and weaker the more frames a pixel has.
 #include "shared/bindings.h"
 #include "shared/frame.h"
 #include "lib/materials.glsl"
@@ -26,15 +27,16 @@ const float RING_WEIGHT[3] = float[3](0.9, 0.7, 0.4);  // the pixel's own is 1
 const float FRAMES_OF_CORNERS = 4.0;
 const float FRAMES_OF_FAR_SIDES = 3.0;
 
-// With fewer frames stairs count as one surface: faces of one material and direction up to two voxels apart.
+// With fewer frames (where cells change, always) stairs count as one surface: faces of one material and direction up to
+// two voxels apart.
 const float FRAMES_OF_STAIRS = 3.0;
 const float STAIRS_VOX = 2.1;
 
 // With fewer frames the brightness of a pixel behind water says nothing yet.
 const float FRAMES_OF_NOISE = 12.0;
 
-// To here all neighbours count in full; then less, for there is less noise to trade for sharpness. To tell by each pixel's
-// variance in place of its frames gained nothing: of so few frames it is as noisy as the light.
+// To here all neighbours count in full; then less, for there is less noise to trade for sharpness. To tell by each
+// pixel's variance in place of its frames gained nothing: of so few frames it is as noisy as the light.
 const float NOISY_FRAMES = 5.0;
 // Wider passes are for pixels that have next to no history.
 const float WIDE_FRAMES = 8.0;
@@ -71,7 +73,7 @@ void main() {
     bool clear = transmits(surface_material(here.w)) && center.a > FRAMES_OF_NOISE;
     float center_luminance = luminance(center.rgb);
     float fall_off = clear ? 1.0 / (0.1 + 0.25 * center_luminance) : 0.0;
-    float stairs_vox = center.a < FRAMES_OF_STAIRS ? STAIRS_VOX : 0.0;
+    float stairs_vox = center.a < FRAMES_OF_STAIRS ? STAIRS_VOX : -1.0;
     vec3 sum = center.rgb;
     float weight_sum = 1.0;
     int taps = here.w == SURFACE_CODE_SKY || strength == 0.0 ? 0 : taps_at(center.a);

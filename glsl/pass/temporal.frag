@@ -5,10 +5,6 @@
 #include "lib/materials.glsl"
 #include "lib/math.glsl"
 #include "lib/surface.glsl"
-#ifdef HISTORY_UPSAMPLE
-#include "lib/face_on_ray.glsl"
-#include "lib/scatter.glsl"
-#endif
 
 layout(r32ui, binding = IMAGE_BRICK_CHANGED) readonly restrict uniform uimage3D brick_changed;
 layout(rgba32f, binding = IMAGE_RADIANCE) readonly restrict uniform image2D radiance;
@@ -50,11 +46,11 @@ layout(std430, binding = 0) buffer RejectedBlock { uint rejected_samples; };
 // its error was twice as large.
 const float FRAMES_KEPT_NEAR_CHANGE = 3.0;
 
-// A mean of four neighbours in every frame of a flight blurs the shadows on a surface: `quality` of `waterfall` .082, so
-// .076. Four more along each axis (Catmull-Rom) gained 2 % there, and lost 12 % in `cave`.
-const float FRAMES_KEPT_IN_FLIGHT = 12.0;
+// A mean of four neighbours in every frame in which the eye moves or turns blurs the shadows on a surface: `quality` of
+// `waterfall` .082, so .074. Four more along each axis (Catmull-Rom) gained 2 % there, and lost 12 % in `cave`.
+const float SAMPLES_KEPT_IN_FLIGHT = 12.0;
 // Beyond this angle (rad) in one frame still fewer: what was seen from there was seen otherwise.
-const float PARALLAX_OF_A_JUMP = 0.05;
+const float ANGLE_OF_A_JUMP = 0.05;
 
 #ifndef HISTORY_BLEND
 // Frames that may be kept of what the previous frame showed at `ndc`: their bias by the share d of the light that the
@@ -107,126 +103,7 @@ bool changed_since(vec3 at_vox) {
     return int(stamp - previous_version) > 0;
 }
 
-// The traced pixels that this frame has for a shown one.
-struct Traced {
-    vec4 surface;    // of the shown pixel
-    ivec2 taps[4];   // around it or beside it
-    vec4 weights;    // of their light; all of it where one of them was traced for this pixel
-    bool own;        // that is so
-    bool met;        // some of them show its surface
-};
-
-#ifdef HISTORY_UPSAMPLE
-#define SAMPLES_A_FRAME (float(frame.size_px.x * frame.size_px.y) / float(frame.size_px.z * frame.size_px.w))
-
-// History of so many samples is worth more than this frame's light of neighbours.
-const float SAMPLES_WITHOUT_NEIGHBOURS = 4.0;
-// What the light of neighbours counts for, in samples: of the same surface, and of others where there is none.
-const float NEIGHBOURS_WORTH = 0.25;
-const float STRANGERS_WORTH = 1e-4;
-
-bool emits(vec4 face) {
-    uint id = surface_material(face.w);
-    return id != SURFACE_SKY && materials[id].emission_metallic.rgb != vec3(0.0);
-}
-
-// The nearest surface along the ray from the eye towards `dir` among those that are asked for, a bit each: of the four
-// traced pixels from `base` on, then of the last frame's from `corner` on. Where it meets none of them, the sky if that
-// is among them, or else the first.
-vec4 surface_along(vec3 dir, uint asked, ivec2 base, ivec2 corner) {
-    ivec2 last = frame.size_px.xy - 1;
-    ivec2 last_shown = frame.size_px.zw - 1;
-    vec3 eye = frame.camera_position_vox.xyz;
-    vec4 nearest = vec4(0.0);
-    float t = 1.1 * TRAVERSAL_NEVER;
-    // One test a round: llvmpipe runs as many rounds as the pixel that has most needs.
-    while (asked != 0u) {
-        uint lowest = asked & (~asked + 1u);
-        asked ^= lowest;
-        int k = (floatBitsToInt(float(lowest)) >> 23) - 127;
-        ivec2 place = ivec2(k & 1, (k >> 1) & 1);
-        vec4 face = k < 4 ? imageLoad(surface, clamp(base + place, ivec2(0), last))
-                          : imageLoad(previous_surface, clamp(corner + place, ivec2(0), last_shown));
-        float t_k = distance_to(face, eye, dir);
-        if (t_k < t || (t_k == t && (face.w == SURFACE_CODE_SKY || emits(nearest)))) {
-            t = t_k;
-            nearest = face;
-        }
-    }
-    return on_plane_of(nearest, eye, dir);
-}
-
-Traced traced_around(ivec2 at) {
-    ivec2 last = frame.size_px.xy - 1;
-    vec2 cell = vec2(frame.size_px.zw) / vec2(frame.size_px.xy);
-    // The traced pixel whose cell this is may stand for a pixel on either side.
-    ivec2 home = min(ivec2((vec2(at) + 0.5) / cell), last);
-    ivec2 base = home - ivec2(greaterThan(shown_pixel(home), at));
-    Traced traced;
-    traced.met = true;
-    vec4 seen[4];
-    vec4 own = vec4(0.0);
-    for (int k = 0; k < 4; ++k) {
-        traced.taps[k] = clamp(base + ivec2(k & 1, k >> 1), ivec2(0), last);
-        ivec2 away = shown_pixel(traced.taps[k]) - at;
-        vec2 near = max(vec2(0.0), 1.0 - abs(vec2(away)) / cell);
-        traced.weights[k] = near.x * near.y + 1e-3;
-        seen[k] = imageLoad(surface, traced.taps[k]);
-        own[k] = float(away == ivec2(0));
-        if (away == ivec2(0)) traced.surface = seen[k];
-    }
-    traced.own = dot(own, own) > 0.0;
-    if (traced.own) {
-        traced.weights = own / dot(own, own);  // the last tap may be there twice
-        return traced;
-    }
-    vec2 size = vec2(frame.size_px.zw);
-    vec3 eye = frame.camera_position_vox.xyz;
-    vec3 dir = normalize(camera_ray((2.0 * gl_FragCoord.xy - size) / size));
-    traced.surface = on_plane_of(seen[0], eye, dir);
-    vec3 n = surface_normal(seen[0].w);
-    float tolerance = plane_tolerance(seen[0], eye);
-    uint others = 0u;
-    for (int k = 1; k < 4; ++k) others |= lies_on(seen[0], seen[k], n, tolerance) ? 0u : 1u << k;
-    bool search = others != 0u;
-    // What is thinner than the gaps between traced pixels was seen when its turn came.
-    vec2 before;
-    bool was_seen = frame.world_size_vox.w != 0 && previous_ndc(traced.surface.xyz, before) &&
-                    all(lessThan(abs(before), vec2(1.0)));
-    vec2 at_before = (before * 0.5 + 0.5) * size;
-    if (was_seen && !search)
-        search = !lies_on(seen[0], imageLoad(previous_surface, ivec2(at_before)), n, tolerance);
-    // A loop that runs at most once: llvmpipe runs the body of a branch for lanes that do not take it.
-    for (bool once = search; once; once = false) {
-        bool crept = any(greaterThan(abs(fract(at_before) - 0.5), vec2(0.01)));
-        uint before_too = !was_seen ? 0u : crept ? 0xf0u : 0x10u;
-        // What lies on one surface of water need not lie in one plane.
-        uint taps = surface_material(seen[0].w) == MATERIAL_WATER ? 15u : 1u | others;
-        traced.surface = surface_along(dir, taps | before_too, base, ivec2(floor(at_before - 0.49)));
-        n = surface_normal(traced.surface.w);
-        tolerance = plane_tolerance(traced.surface, eye);
-        for (int k = 0; k < 4; ++k)
-            if (!lies_on(traced.surface, seen[k], n, tolerance)) traced.weights[k] *= 1e-6;
-        traced.met = dot(traced.weights, vec4(1.0)) > 1e-4;
-    }
-    traced.weights /= dot(traced.weights, vec4(1.0));
-    return traced;
-}
-
-vec3 light_of(Traced traced) {
-    vec3 sum = vec3(0.0);
-    for (int k = 0; k < 4; ++k) sum += traced.weights[k] * imageLoad(radiance, traced.taps[k]).rgb;
-    return sum;
-}
-#else
-Traced traced_around(ivec2 at) {
-    ivec2 beside = min(at + 1, frame.size_px.xy - 1);
-    ivec2 taps[4] = ivec2[4](at, ivec2(beside.x, at.y), ivec2(at.x, beside.y), max(at - 1, ivec2(0)));
-    return Traced(imageLoad(surface, at), taps, vec4(1.0, 0.0, 0.0, 0.0), true, true);
-}
-vec3 light_of(Traced traced) { return imageLoad(radiance, traced.taps[0]).rgb; }
-#define SAMPLES_A_FRAME 1.0
-#endif
+#include "lib/traced.glsl"
 
 // How far behind the surface of normal n that the pixel shows its image seems to lie, what it mirrors or what is behind
 // it; 0 where no path told.
@@ -353,9 +230,11 @@ void main() {
             count = min(count, SAMPLES_A_FRAME * FRAMES_KEPT_NEAR_CHANGE);
         count = min(count, SAMPLES_A_FRAME * image.frames_kept);
         count = min(count, frame.history.y - 1.0);
-        float parallax = distance(frame.camera_position_vox.xyz, frame.previous_position_vox.xyz) /
-                         max(distance(here.xyz, frame.camera_position_vox.xyz), 1e-3);
-        if (resampled) count = min(count, FRAMES_KEPT_IN_FLIGHT / max(1.0, parallax / PARALLAX_OF_A_JUMP));
+        vec3 way = frame.camera_position_vox.xyz - frame.previous_position_vox.xyz;
+        vec3 to_surface = here.xyz - frame.camera_position_vox.xyz;
+        // The tangent of the angle between the directions from there and from here.
+        float turned = length(cross(way, to_surface)) / max(dot(to_surface + way, to_surface), 1e-6);
+        if (resampled) count = min(count, SAMPLES_KEPT_IN_FLIGHT / max(1.0, turned / ANGLE_OF_A_JUMP));
 #ifndef HISTORY_BLEND
         bool asked = is_retraced && !is_moving(here.w);
         float kept_of_light = frames_kept_of_light(ndc, asked);

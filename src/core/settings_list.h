@@ -39,7 +39,7 @@
     REAL(resolution_scale, 1, 0.25, 1, LIGHT, TARGETS, "Traced pixels per shown pixel, along each side.")    \
     BOOL(guided_upsampling, true, LIGHT, IMAGE,                                                              \
          "Where fewer pixels are traced than shown: spread their light within the surfaces of the shown "    \
-         "ones; off: bilinear.")                                                                             \
+         "ones; off: blend them, bright ones less.")                                                         \
     CHOICE(Traversal, traversal, Distance, LIGHT, IMAGE,                                                     \
            "voxel: step through every voxel; distance: skip empty bricks. Same picture.")                    \
     CHOICE(                                                                                                  \
@@ -74,7 +74,8 @@
         "Reuse of earlier frames: none, blend (constant weight), count (running mean), exact (all frames).") \
     REAL(history_alpha, 0.1, 0.001, 1, IMAGE_FILTER, IMAGE,                                                  \
          "Weight of the new frame where history is blend.")                                                  \
-    INT(history_cap, 48, 1, 4096, IMAGE_FILTER, IMAGE, "Most frames kept where history is count.")           \
+    INT(history_cap, 48, 1, 4096, IMAGE_FILTER, IMAGE,                                                       \
+        "Most frames kept where history is count, 12 in flight.")                                            \
     BOOL(retrace_changes, true, IMAGE_FILTER, IMAGE,                                                         \
          "After a change of the world trace a ninth of the last frame's paths again, where history is "      \
          "count, "                                                                                           \

@@ -76,13 +76,13 @@ std::vector<std::string> steps_along(const Coordinate& coordinate, const std::st
 // are caustics, which references of hundreds of samples miss.
 std::span<const Coordinate> tradeoff_coordinates() {
     static const Coordinate coordinates[] = {
-        {"resolution_scale", {"0.25", "0.35", "0.45", "0.55", "0.65", "0.75", "0.85", "1"}, true},
+        {"resolution_scale", {"0.25", "0.35", "0.4", "0.45", "0.55", "0.65", "0.75", "0.85", "1"}, true},
         {"samples_per_pixel", {"1", "2", "4", "8"}, true},
         {"antialiasing", {"0", "4", "8"}, false},
         {"history_cap", {"4", "8", "16", "32", "48", "96", "256"}, true},
         {"filter", {"none", "gaussian", "edge_aware"}, false},
         {"filter_passes", {"1", "2", "3"}, true},
-        {"max_diffuse_bounces", {"0", "1", "2", "3", "6", "16"}, true},
+        {"max_diffuse_bounces", {"0", "1", "2", "3", "4", "6", "16"}, true},
         {"roulette_after", {"0", "1", "2", "4", "16"}, true},
         {"firefly_limit", {"1", "2", "4", "8", "20", "1000"}, true},
         {"smooth_water", {"false", "true"}, false},

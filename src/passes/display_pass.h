@@ -12,7 +12,7 @@ namespace tarn {
 class DisplayPass {
   public:
     struct Inputs {
-        const gl::Texture& radiance;  // linear filtering where its size differs from the target's
+        const gl::Texture& radiance;  // RGBA32F, of any size
         // Refined: exact mode's mean, its sums, how many samples they are; of the target's size.
         const gl::Texture* exact_mean = nullptr;
         const gl::Texture* exact_sum = nullptr;

@@ -187,6 +187,53 @@ TEST_F(HistoryTest, TheEdgeAwareFilterStaysWithinMaterialNormalAndPlane) {
     }
 }
 
+// Half a floor lies in the shadow of its other half, a step higher.
+TEST_F(HistoryTest, StairsAreOneSurfaceToTheFilterInTheFirstFrames) {
+    const auto step = [](const char* material) {
+        Scene scene = plain_scene(fmt::format(
+            R"({{"size": [24, 12, 24], "camera": {{"position_vox": [12, 11, 12], "pitch_deg": -90, "fov_deg": 50}},
+            "sun": {{"azimuth_deg": 90, "elevation_deg": 8, "irradiance": [6, 6, 6], "angular_radius_deg": 0}},
+            "sky": {{"zenith": [0, 0, 0], "horizon": [0, 0, 0]}},
+            "build": [{{"box": {{"min": [0, 0, 0], "max": [24, 1, 24], "material": "wall"}}}},
+                      {{"box": {{"min": [12, 1, 0], "max": [24, 2, 24], "material": "{}"}}}}]}})",
+            material));
+        scene.settings.max_bounces = 1;
+        scene.settings.light_sampling = LightSampling::Lights;
+        scene.settings.history = History::Count;
+        return scene;
+    };
+    for (const char* material : {"wall", "stone"}) {
+        Studio single(step(material));
+        Studio filtered(step(material));
+        filtered.settings().filter = Filter::EdgeAware;
+        for (int frame = 1; frame <= 4; ++frame) {
+            const double apart = largest_difference(filtered.shoot({48, 32}), single.shoot({48, 32}));
+            if (frame < 3 && material == std::string("wall"))
+                EXPECT_GT(apart, 0.05) << frame;
+            else
+                EXPECT_LT(apart, 1e-5) << material << frame;
+        }
+    }
+}
+
+TEST_F(HistoryTest, AFlightKeepsFewFramesAndAJumpFewer) {
+    Studio studio(noisy_floor());
+    studio.settings().history = History::Count;
+    const auto kept = [&] {
+        studio.settings().view = ViewKind::History;
+        const Picture frames = studio.shoot({24, 16});
+        studio.settings().view = ViewKind::Picture;
+        return frames.at(12, 8).x;
+    };
+    for (int frame = 0; frame < 20; ++frame) studio.shoot({24, 16});
+    EXPECT_EQ(kept(), 21);
+    studio.settings().camera_position_vox.x += 0.03f;
+    EXPECT_EQ(kept(), 13);
+    EXPECT_EQ(kept(), 14);
+    studio.settings().camera_position_vox.x += 4;
+    EXPECT_LT(kept(), 8);
+}
+
 TEST_F(HistoryTest, TheEdgeAwareFilterAveragesNoiseWithinAPlaneAndLessOfItThereIsLess) {
     Studio single(noisy_floor());
     Studio filtered(noisy_floor());

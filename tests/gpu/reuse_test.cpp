@@ -94,7 +94,7 @@ TEST_F(ReuseTest, LampsOfFewerTracedPixelsShineWhereTheyAre) {
         full.settings().filter = Filter::None;
         const Recording recording = load_recording("flying");
         const Settings start = full.settings();
-        int lamps = 0, strays = 0;
+        int lamps = 0, shown = 0, strays = 0;
         double spilt = 0;
         for (int frame = 0; frame < recording.frames(); ++frame) {
             for (Studio* studio : {&scaled, &full}) place_camera(recording, frame, start, studio->settings());
@@ -109,10 +109,12 @@ TEST_F(ReuseTest, LampsOfFewerTracedPixelsShineWhereTheyAre) {
                         around = std::max(around, expected.at(there.x, there.y).x);
                     }
                     lamps += expected.at(x, y).x > lit ? 1 : 0;
+                    shown += expected.at(x, y).x > lit && picture.at(x, y).x > lit ? 1 : 0;
                     strays += picture.at(x, y).x > lit && around <= lit ? 1 : 0;
                     if (expected.at(x, y).x == 0) spilt += picture.at(x, y).x;
                 }
         }
+        EXPECT_GT(shown, (guided ? 0.9 : 0.5) * lamps);
         EXPECT_LT(strays, 6) << guided;  // bilinear: 299
         // A lamp's pixel is 8 and more. Bilinear: 5; guided, with lamps where a ray met nothing: 0.7.
         EXPECT_LT(spilt, (guided ? 0.1 : 0.4) * lamps) << guided;
