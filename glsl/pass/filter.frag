@@ -38,6 +38,8 @@ const float FRAMES_OF_NOISE = 12.0;
 // To here all neighbours count in full; then less, for there is less noise to trade for sharpness. To tell by each
 // pixel's variance in place of its frames gained nothing: of so few frames it is as noisy as the light.
 const float NOISY_FRAMES = 5.0;
+// Chance decides what a path through water or glass sees: it takes so many times the frames.
+const float CLEAR_IS_NOISIER = 1.5;
 // Wider passes are for pixels that have next to no history.
 const float WIDE_FRAMES = 8.0;
 
@@ -66,17 +68,19 @@ void main() {
     vec4 here = imageLoad(surface, at);
     vec3 n = surface_normal(here.w);
     float tolerance = plane_tolerance(here, frame.camera_position_vox.xyz);
+    bool is_clear = transmits(surface_material(here.w));
+    float frames = center.a / (is_clear ? CLEAR_IS_NOISIER : 1.0);
     bool wide = step_px.x > 1;
-    float strength = wide ? max(0.0, 1.0 - center.a / WIDE_FRAMES) : min(1.0, NOISY_FRAMES / center.a);
+    float strength = wide ? max(0.0, 1.0 - center.a / WIDE_FRAMES) : min(1.0, NOISY_FRAMES / frames);
     // Behind a clear surface lies a picture of its own: keep its edges by brightness, once there is more to see than
     // noise.
-    bool clear = transmits(surface_material(here.w)) && center.a > FRAMES_OF_NOISE;
+    bool keeps_edges = is_clear && center.a > FRAMES_OF_NOISE;
     float center_luminance = luminance(center.rgb);
-    float fall_off = clear ? 1.0 / (0.1 + 0.25 * center_luminance) : 0.0;
+    float fall_off = keeps_edges ? 1.0 / (0.1 + 0.25 * center_luminance) : 0.0;
     float stairs_vox = center.a < FRAMES_OF_STAIRS ? STAIRS_VOX : -1.0;
     vec3 sum = center.rgb;
     float weight_sum = 1.0;
-    int taps = here.w == SURFACE_CODE_SKY || strength == 0.0 ? 0 : taps_at(center.a);
+    int taps = here.w == SURFACE_CODE_SKY || strength == 0.0 ? 0 : taps_at(frames);
     if (is_moving(here.w) && strength > 0.0) taps = MOVING_TAPS;
     for (int k = 0; k < taps; ++k) {
         int wider = k / 12;
