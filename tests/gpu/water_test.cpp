@@ -69,7 +69,7 @@ TEST_F(WaterTest, equals_reference_for_odd_sizes_and_seeds) {
                     expect_equal_steps(tier, {.size_vox = size,
                                               .soup = soup,
                                               .seed = seed,
-                                              .ticks = large ? 20 : 100,
+                                              .ticks = large ? 20 : 60,
                                               .ticks_between_looks = large ? 10 : 5});
                     if (HasFatalFailure()) return;
                 }
