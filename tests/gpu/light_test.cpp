@@ -48,6 +48,7 @@ TEST_F(LightTest, ChanceEndsNoPathThroughClearSlabsThatLosesNoLight) {
     const auto passed = [&](int bounces) {
         return picture_of(scene_from(text), 1, {32, 32}, [&](Settings& s) {
             apply_quality(s, Quality::Balanced);
+            s.resolution_scale = 1;
             s.max_bounces = bounces;
             s.history = History::None;
             s.filter = Filter::None;

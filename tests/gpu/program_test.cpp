@@ -76,7 +76,7 @@ TEST_F(ProgramTest, DrawsOnlyTheRowsThatAreAskedFor) {
     const gl::Texture picture({.label = "picture", .format = GL_RGBA32F, .size = {size, 0}});
     const float one[] = {1, 1, 1, 1};
     glClearTexImage(ones.name(), 0, GL_RGBA, GL_FLOAT, one);
-    ones.bind(BINDING_FIRST_INPUT);
+    ones.bind_image(IMAGE_RADIANCE, GL_READ_ONLY);
     const gl::Framebuffer target("picture", {&picture});
     const auto drawn_after = [&](auto draw) {
         glClearTexImage(picture.name(), 0, GL_RGBA, GL_FLOAT, nullptr);
