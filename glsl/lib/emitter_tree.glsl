@@ -27,4 +27,4 @@ int emitter_node_index(ivec3 node, int level) {
 bool any_emitter() { return emitter_power[emitter_levels[emitter_depth.x - 1].w] > 0.0; }
 
 // Shining water is found by chance: its surface is no face of a voxel.
-bool is_emitter(uint value) { return !is_water(value) && max_component(materials[value].emission_metallic.rgb) > 0.0; }
+bool is_emitter(uint value) { return !is_water(value) && emits(value); }

@@ -1,6 +1,7 @@
 // The table of materials on the GPU, by material id.
 #include "shared/materials.h"
 #include "shared/bindings.h"
+#include "lib/math.glsl"
 
 struct Material {
     vec4 base_roughness;    // base_color, roughness
@@ -11,6 +12,8 @@ struct Material {
 layout(std140, binding = BINDING_MATERIALS) uniform MaterialBlock { Material materials[MATERIAL_COUNT]; };
 
 bool transmits(uint medium) { return medium == MATERIAL_AIR || medium == MATERIAL_WATER || medium == MATERIAL_GLASS; }
+
+bool emits(uint id) { return max_component(materials[id].emission_metallic.rgb) > 0.0; }
 
 float ior_of(uint medium) { return materials[medium].absorption_ior.w; }
 

@@ -1,5 +1,5 @@
-// What this frame traced for a shown pixel: its surface and light; of neighbours, where fewer pixels are traced than shown
-// (HISTORY_UPSAMPLE). Reads the images `radiance`, `surface` and `previous_surface` of the pass that includes it.
+// What this frame traced for a shown pixel: its surface and light; of neighbours, where fewer pixels are traced than
+// shown (HISTORY_UPSAMPLE). Reads the images `radiance`, `surface` and `previous_surface` of the pass that includes it.
 #include "lib/camera.glsl"
 #include "lib/surface.glsl"
 #ifdef HISTORY_UPSAMPLE
@@ -25,10 +25,7 @@ const float SAMPLES_WITHOUT_NEIGHBOURS = 4.0;
 const float NEIGHBOURS_WORTH = 0.25;
 const float STRANGERS_WORTH = 1e-4;
 
-bool emits(vec4 face) {
-    uint id = surface_material(face.w);
-    return id != SURFACE_SKY && materials[id].emission_metallic.rgb != vec3(0.0);
-}
+bool is_lamp(vec4 face) { return face.w != SURFACE_CODE_SKY && emits(surface_material(face.w)); }
 
 // The nearest surface along the ray from the eye towards `dir` among those that are asked for, a bit each: of the four
 // traced pixels from `base` on, then of the last frame's from `corner` on. Where it meets none of them, the sky if that
@@ -41,15 +38,14 @@ vec4 surface_along(vec3 dir, uint asked, ivec2 base, ivec2 corner) {
     float t = 1.1 * TRAVERSAL_NEVER;
     // One test a round: llvmpipe runs as many rounds as the pixel that has most needs.
     while (asked != 0u) {
-        uint lowest = asked & (~asked + 1u);
-        asked ^= lowest;
-        int k = (floatBitsToInt(float(lowest)) >> 23) - 127;
+        int k = findLSB(asked);
+        asked &= asked - 1u;
         ivec2 place = ivec2(k & 1, (k >> 1) & 1);
         vec4 face = k < 4 ? imageLoad(surface, clamp(base + place, ivec2(0), last))
                           : imageLoad(previous_surface, clamp(corner + place, ivec2(0), last_shown));
         float t_k = distance_to(face, eye, dir);
         bool none_met = t_k == t && t == TRAVERSAL_NEVER;
-        if (t_k < t || (none_met && (face.w == SURFACE_CODE_SKY || emits(nearest)))) {
+        if (t_k < t || (none_met && (face.w == SURFACE_CODE_SKY || is_lamp(nearest)))) {
             t = t_k;
             nearest = face;
         }

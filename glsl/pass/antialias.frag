@@ -53,11 +53,10 @@ void main() {
     float nearest = TRAVERSAL_NEVER;
     // One test a round: llvmpipe runs as many rounds as the pixel that has most needs.
     while (left != 0u) {
-        uint lowest = left & (~left + 1u);
-        int bit = (floatBitsToInt(float(lowest)) >> 23) - 127;
+        int bit = findLSB(left);
         int i = (bit * 11) >> 5;
         int k = bit - TESTS * i;
-        left ^= lowest;
+        left &= left - 1u;
         vec2 offset = sub_sample(float(i));
         ivec2 tap = pixel;
         if (k == 1) tap.x += offset.x < 0.0 ? -1 : 1;

@@ -83,7 +83,7 @@
     BOOL(refine_at_rest, true, IMAGE_FILTER, IMAGE,                                                          \
          "While eye and world rest, add frames of quality exact and let the picture glide into their mean.") \
     CHOICE(Filter, filter, EdgeAware, IMAGE_FILTER, TARGETS,                                                 \
-           "Blur against noise: none, gaussian, or edge_aware (stays within one surface).")                  \
+           "Blur against noise: none, gaussian, or edge_aware (within one surface; of new pixels, stairs).") \
     INT(filter_passes, 1, 1, 5, IMAGE_FILTER, IMAGE,                                                         \
         "Passes of the filter, each twice as wide as the last.")                                             \
     INT(antialiasing, 4, 0, 8, IMAGE_FILTER, TARGETS,                                                        \
