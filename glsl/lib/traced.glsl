@@ -9,7 +9,7 @@
 
 // The traced pixels that this frame has for a shown one.
 struct Traced {
-    vec4 surface;    // of the shown pixel
+    uint surface;    // of the shown pixel
     ivec2 taps[4];   // around it or beside it
     vec4 weights;    // of their light; all of it where one of them was traced for this pixel
     bool own;        // that is so
@@ -25,35 +25,36 @@ const float SAMPLES_WITHOUT_NEIGHBOURS = 4.0;
 const float NEIGHBOURS_WORTH = 0.25;
 const float STRANGERS_WORTH = 1e-4;
 
-bool is_lamp(vec4 face) { return face.w != SURFACE_CODE_SKY && emits(surface_material(face.w)); }
+bool is_lamp(uint face) { return face != SURFACE_CODE_SKY && emits(surface_material(face)); }
 
 // The nearest surface along the ray from the eye towards `dir` among those that are asked for, a bit each: of the four
 // traced pixels from `base` on, then of the last frame's from `corner` on. Where it meets none of them, the sky if that
 // is among them, or else the first that is no lamp.
-vec4 surface_along(vec3 dir, uint asked, ivec2 base, ivec2 corner) {
+uint surface_along(vec3 dir, uint asked, ivec2 base, ivec2 corner) {
     ivec2 last = frame.size_px.xy - 1;
     ivec2 last_shown = frame.size_px.zw - 1;
     vec3 eye = frame.camera_position_vox.xyz;
-    vec4 nearest = vec4(0.0);
+    uint nearest = SURFACE_CODE_SKY;
     float t = 1.1 * TRAVERSAL_NEVER;
     // One test a round: llvmpipe runs as many rounds as the pixel that has most needs.
     while (asked != 0u) {
         int k = findLSB(asked);
         asked &= asked - 1u;
         ivec2 place = ivec2(k & 1, (k >> 1) & 1);
-        vec4 face = k < 4 ? imageLoad(surface, clamp(base + place, ivec2(0), last))
-                          : imageLoad(previous_surface, clamp(corner + place, ivec2(0), last_shown));
+        uint face = k < 4 ? imageLoad(surface, clamp(base + place, ivec2(0), last)).r
+                          : imageLoad(previous_surface, clamp(corner + place, ivec2(0), last_shown)).r;
         float t_k = distance_to(face, eye, dir);
         bool none_met = t_k == t && t == TRAVERSAL_NEVER;
-        if (t_k < t || (none_met && (face.w == SURFACE_CODE_SKY || is_lamp(nearest)))) {
+        if (t_k < t || (none_met && (face == SURFACE_CODE_SKY || is_lamp(nearest)))) {
             t = t_k;
             nearest = face;
         }
     }
-    return on_plane_of(nearest, eye, dir);
+    return nearest;
 }
 
-Traced traced_around(ivec2 at) {
+// dir: of the shown pixel's ray.
+Traced traced_around(ivec2 at, vec3 dir) {
     ivec2 last = frame.size_px.xy - 1;
     vec2 cell = vec2(frame.size_px.zw) / vec2(frame.size_px.xy);
     // The traced pixel whose cell this is may stand for a pixel on either side.
@@ -61,14 +62,14 @@ Traced traced_around(ivec2 at) {
     ivec2 base = home - ivec2(greaterThan(shown_pixel(home), at));
     Traced traced;
     traced.met = true;
-    vec4 seen[4];
+    uint seen[4];
     vec4 own = vec4(0.0);
     for (int k = 0; k < 4; ++k) {
         traced.taps[k] = clamp(base + ivec2(k & 1, k >> 1), ivec2(0), last);
         ivec2 away = shown_pixel(traced.taps[k]) - at;
         vec2 near = max(vec2(0.0), 1.0 - abs(vec2(away)) / cell);
         traced.weights[k] = near.x * near.y + 1e-3;
-        seen[k] = imageLoad(surface, traced.taps[k]);
+        seen[k] = imageLoad(surface, traced.taps[k]).r;
         own[k] = float(away == ivec2(0));
         if (away == ivec2(0)) traced.surface = seen[k];
     }
@@ -79,31 +80,27 @@ Traced traced_around(ivec2 at) {
     }
     vec2 size = vec2(frame.size_px.zw);
     vec3 eye = frame.camera_position_vox.xyz;
-    vec3 dir = normalize(camera_ray((2.0 * gl_FragCoord.xy - size) / size));
-    traced.surface = on_plane_of(seen[0], eye, dir);
-    vec3 n = surface_normal(seen[0].w);
-    float tolerance = plane_tolerance(seen[0], eye);
+    traced.surface = seen[0];
+    vec3 point = surface_point(seen[0], eye, dir);
     uint others = 0u;
-    for (int k = 1; k < 4; ++k) others |= lies_on(seen[0], seen[k], n, tolerance) ? 0u : 1u << k;
+    for (int k = 1; k < 4; ++k) others |= lies_on(seen[0], seen[k]) ? 0u : 1u << k;
     bool search = others != 0u;
     // What is thinner than the gaps between traced pixels was seen when its turn came.
     vec2 before;
-    bool was_seen = frame.world_size_vox.w != 0 && previous_ndc(traced.surface.xyz, before) &&
+    bool was_seen = frame.world_size_vox.w != 0 && previous_ndc(point, before) &&
                     all(lessThan(abs(before), vec2(1.0)));
     vec2 at_before = (before * 0.5 + 0.5) * size;
     if (was_seen && !search)
-        search = !lies_on(seen[0], imageLoad(previous_surface, ivec2(at_before)), n, tolerance);
+        search = !lies_on(seen[0], imageLoad(previous_surface, ivec2(at_before)).r);
     // A loop that runs at most once: llvmpipe runs the body of a branch for lanes that do not take it.
     for (bool once = search; once; once = false) {
         bool crept = any(greaterThan(abs(fract(at_before) - 0.5), vec2(0.01)));
         uint before_too = !was_seen ? 0u : crept ? 0xf0u : 0x10u;
         // What lies on one surface of water need not lie in one plane.
-        uint taps = surface_material(seen[0].w) == MATERIAL_WATER ? 15u : 1u | others;
+        uint taps = surface_material(seen[0]) == MATERIAL_WATER ? 15u : 1u | others;
         traced.surface = surface_along(dir, taps | before_too, base, ivec2(floor(at_before - 0.49)));
-        n = surface_normal(traced.surface.w);
-        tolerance = plane_tolerance(traced.surface, eye);
         for (int k = 0; k < 4; ++k)
-            if (!lies_on(traced.surface, seen[k], n, tolerance)) traced.weights[k] *= 1e-6;
+            if (!lies_on(traced.surface, seen[k])) traced.weights[k] *= 1e-6;
         traced.met = dot(traced.weights, vec4(1.0)) > 1e-4;
     }
     traced.weights /= dot(traced.weights, vec4(1.0));
@@ -120,10 +117,10 @@ vec3 light_of(Traced traced) {
     return sum.rgb / sum.a;
 }
 #else
-Traced traced_around(ivec2 at) {
+Traced traced_around(ivec2 at, vec3 dir) {
     ivec2 beside = min(at + 1, frame.size_px.xy - 1);
     ivec2 taps[4] = ivec2[4](at, ivec2(beside.x, at.y), ivec2(at.x, beside.y), max(at - 1, ivec2(0)));
-    return Traced(imageLoad(surface, at), taps, vec4(1.0, 0.0, 0.0, 0.0), true, true);
+    return Traced(imageLoad(surface, at).r, taps, vec4(1.0, 0.0, 0.0, 0.0), true, true);
 }
 vec3 light_of(Traced traced) { return imageLoad(radiance, traced.taps[0]).rgb; }
 #define SAMPLES_A_FRAME 1.0

@@ -4,7 +4,7 @@
 #include "lib/face_on_ray.glsl"
 
 layout(rgba32f, binding = IMAGE_RADIANCE) readonly restrict uniform image2D radiance;
-layout(rgba32f, binding = IMAGE_SURFACE) readonly restrict uniform image2D surface;  // lib/surface.glsl
+layout(r32ui, binding = IMAGE_SURFACE) readonly restrict uniform uimage2D surface;  // lib/surface.glsl
 
 // Sub-samples of a pixel, n, and their lattice: the i-th of n columns is taken in the row (n + 1) fract((i + 1) y) - 1.
 uniform vec2 pattern;  // n, y
@@ -26,15 +26,13 @@ void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     ivec2 last = imageSize(surface) - 1;
     vec3 eye = frame.camera_position_vox.xyz;
-    vec4 here = imageLoad(surface, pixel);
-    vec3 n = surface_normal(here.w);
-    float tolerance = plane_tolerance(here, eye);
+    uint here = imageLoad(surface, pixel).r;
     vec3 own = imageLoad(radiance, pixel).rgb;
     // Which of the neighbours -x, +x, -y, +y show another surface.
-    bvec4 differs = bvec4(!lies_on(here, imageLoad(surface, ivec2(max(pixel.x - 1, 0), pixel.y)), n, tolerance),
-                          !lies_on(here, imageLoad(surface, ivec2(min(pixel.x + 1, last.x), pixel.y)), n, tolerance),
-                          !lies_on(here, imageLoad(surface, ivec2(pixel.x, max(pixel.y - 1, 0))), n, tolerance),
-                          !lies_on(here, imageLoad(surface, ivec2(pixel.x, min(pixel.y + 1, last.y))), n, tolerance));
+    bvec4 differs = bvec4(!lies_on(here, imageLoad(surface, ivec2(max(pixel.x - 1, 0), pixel.y)).r),
+                          !lies_on(here, imageLoad(surface, ivec2(min(pixel.x + 1, last.x), pixel.y)).r),
+                          !lies_on(here, imageLoad(surface, ivec2(pixel.x, max(pixel.y - 1, 0))).r),
+                          !lies_on(here, imageLoad(surface, ivec2(pixel.x, min(pixel.y + 1, last.y))).r));
 
     // The tests of all sub-samples that have another surface beside them, bit TESTS i + k.
     uint left = 0u;
@@ -65,7 +63,7 @@ void main() {
         vec3 shown = imageLoad(radiance, tap).rgb;
         vec4 light = weight * vec4(shown, 1.0);
         vec3 dir = camera_ray(2.0 * (gl_FragCoord.xy + offset) / vec2(last + 1) - 1.0);
-        float t = distance_to(imageLoad(surface, tap), eye, dir);
+        float t = distance_to(imageLoad(surface, tap).r, eye, dir);
         if (t * SAME_DISTANCE < nearest) {
             nearest = t;
             found = vec4(0.0);

@@ -1,15 +1,15 @@
-// A blur against noise. FILTER_GAUSSIAN: one direction of a separable one of 5 taps, over everything. Otherwise one pass
-// of taps around the pixel, within one surface of one material (stairs count as one where a pixel has next to no history);
-// fewer and weaker the more frames a pixel has.
+// A blur against noise. FILTER_GAUSSIAN: one direction of a separable one of 5 taps, over everything. Otherwise one
+// pass of taps around the pixel, within one surface of one material (stairs count as one where a pixel has next to no
+// history); fewer and weaker the more frames a pixel has. FILTER_MOVING: water may move, and has more of them.
 #include "shared/bindings.h"
-#include "shared/frame.h"
+#include "lib/camera.glsl"
 #include "lib/materials.glsl"
 #include "lib/math.glsl"
 #include "lib/surface.glsl"
 
 layout(rgba32f, binding = IMAGE_RADIANCE) readonly restrict uniform image2D radiance;  // rgb; a: frames kept
 #ifndef FILTER_GAUSSIAN
-layout(rgba32f, binding = IMAGE_SURFACE) readonly restrict uniform image2D surface;
+layout(r32ui, binding = IMAGE_SURFACE) readonly restrict uniform uimage2D surface;
 #endif
 
 uniform ivec2 step_px;  // distance of neighbouring taps; Gaussian: and direction
@@ -30,7 +30,7 @@ const float FRAMES_OF_FAR_SIDES = 3.0;
 // With fewer frames (where cells change, always) stairs count as one surface: faces of one material and direction up to
 // two voxels apart.
 const float FRAMES_OF_STAIRS = 3.0;
-const float STAIRS_VOX = 2.1;
+const int STAIRS_PLANES = 32;
 
 // With fewer frames the brightness of a pixel behind water says nothing yet.
 const float FRAMES_OF_NOISE = 12.0;
@@ -43,8 +43,25 @@ const float CLEAR_IS_NOISIER = 1.5;
 // Wider passes are for pixels that have next to no history.
 const float WIDE_FRAMES = 8.0;
 
+#ifdef FILTER_MOVING
 // Moving water has the light of a few paths, a dozen interfaces long: rings twice and four times as wide as well.
 const int MOVING_TAPS = 36;
+
+vec3 point_at(uint code, ivec2 pixel) {
+    vec2 size = vec2(imageSize(surface));
+    vec3 dir = normalize(camera_ray((2.0 * vec2(pixel) + 1.0 - size) / size));
+    return surface_point(code, frame.camera_position_vox.xyz, dir);
+}
+
+// How many pixels along x and y span less than the tolerance of moving water on the plane of its face.
+ivec2 reach_on_moving(uint code, ivec2 pixel) {
+    vec3 point = point_at(code, pixel);
+    vec3 across = abs(point_at(code, pixel + ivec2(1, 0)) - point);
+    vec3 along = abs(point_at(code, pixel + ivec2(0, 1)) - point);
+    vec2 step_vox = vec2(max_component(across), max_component(along));
+    return ivec2(MOVING_TOLERANCE_VOX / max(step_vox, 1e-3));
+}
+#endif
 
 int taps_at(float frames) { return frames < FRAMES_OF_FAR_SIDES ? 12 : frames < FRAMES_OF_CORNERS ? 8 : 4; }
 
@@ -65,10 +82,8 @@ void main() {
     }
     out_radiance = vec4(sum, center.a);
 #else
-    vec4 here = imageLoad(surface, at);
-    vec3 n = surface_normal(here.w);
-    float tolerance = plane_tolerance(here, frame.camera_position_vox.xyz);
-    bool is_clear = transmits(surface_material(here.w));
+    uint here = imageLoad(surface, at).r;
+    bool is_clear = transmits(surface_material(here));
     float frames = center.a / (is_clear ? CLEAR_IS_NOISIER : 1.0);
     bool wide = step_px.x > 1;
     float strength = wide ? max(0.0, 1.0 - center.a / WIDE_FRAMES) : min(1.0, NOISY_FRAMES / frames);
@@ -77,20 +92,29 @@ void main() {
     bool keeps_edges = is_clear && center.a > FRAMES_OF_NOISE;
     float center_luminance = luminance(center.rgb);
     float fall_off = keeps_edges ? 1.0 / (0.1 + 0.25 * center_luminance) : 0.0;
-    float stairs_vox = center.a < FRAMES_OF_STAIRS ? STAIRS_VOX : -1.0;
+    int stairs = center.a < FRAMES_OF_STAIRS ? STAIRS_PLANES : -1;
     vec3 sum = center.rgb;
     float weight_sum = 1.0;
-    int taps = here.w == SURFACE_CODE_SKY || strength == 0.0 ? 0 : taps_at(frames);
-    if (is_moving(here.w) && strength > 0.0) taps = MOVING_TAPS;
+    int taps = here == SURFACE_CODE_SKY || strength == 0.0 ? 0 : taps_at(frames);
+#ifdef FILTER_MOVING
+    bool moving = is_moving(here) && strength > 0.0;
+    if (moving) taps = MOVING_TAPS;
+    ivec2 reach = ivec2(1000);
+    for (bool once = moving; once; once = false) reach = reach_on_moving(here, at);
+#endif
     for (int k = 0; k < taps; ++k) {
         int wider = k / 12;
         int i = k - 12 * wider;
         ivec2 tap = at + (step_px << wider) * place_of(i);
         // At the picture's edge a tap may meet a pixel twice: no harm.
         tap = clamp(tap, ivec2(0), last);
-        vec4 there = imageLoad(surface, tap);
-        bool step_of_stairs = there.w == here.w && abs(dot(there.xyz - here.xyz, n)) <= stairs_vox;
-        bool meets = step_of_stairs || lies_on(here, there, n, tolerance);
+        uint there = imageLoad(surface, tap).r;
+        bool step_of_stairs = on_parallel_planes(here, there) && planes_apart(here, there) <= stairs;
+        bool meets = lies_on(here, there);
+#ifdef FILTER_MOVING
+        meets = meets && all(lessThanEqual(abs(tap - at), reach));
+#endif
+        meets = meets || step_of_stairs;
         vec3 value = meets ? imageLoad(radiance, tap).rgb : vec3(0.0);
         float w = strength * RING_WEIGHT[i >> 2] * exp(-abs(luminance(value) - center_luminance) * fall_off);
         if (!meets) w = 0.0;

@@ -8,13 +8,13 @@
 
 layout(r32ui, binding = IMAGE_BRICK_CHANGED) readonly restrict uniform uimage3D brick_changed;
 layout(rgba32f, binding = IMAGE_RADIANCE) readonly restrict uniform image2D radiance;
-layout(rgba32f, binding = IMAGE_SURFACE) readonly restrict uniform image2D surface;
+layout(r32ui, binding = IMAGE_SURFACE) readonly restrict uniform uimage2D surface;
 // rgb; a: frames kept
 layout(rgba32f, binding = IMAGE_PREVIOUS_RADIANCE) readonly restrict uniform image2D previous_radiance;
-layout(rgba32f, binding = IMAGE_PREVIOUS_SURFACE) readonly restrict uniform image2D previous_surface;
+layout(r32ui, binding = IMAGE_PREVIOUS_SURFACE) readonly restrict uniform uimage2D previous_surface;
 
 #ifdef HISTORY_UPSAMPLE
-layout(location = 1) out vec4 out_surface;
+layout(location = 1) out uint out_surface;
 #endif
 #ifdef HISTORY_MOMENTS
 layout(binding = 8) uniform sampler2D previous_moments;
@@ -105,14 +105,14 @@ bool changed_since(vec3 at_vox) {
 
 #include "lib/traced.glsl"
 
-// How far behind the surface of normal n that the pixel shows its image seems to lie, what it mirrors or what is behind
-// it; 0 where no path told.
-float image_behind(Traced traced, vec3 n, float tolerance, bool mirrored) {
+// How far behind the surface that the pixel shows its image seems to lie, what it mirrors or what is behind it; 0 where
+// no path told.
+float image_behind(Traced traced, bool mirrored) {
     float count = 0.0;
     float inverse = 1e-20;
     for (int k = 0; k < 4; ++k) {
         float behind = imageLoad(radiance, traced.taps[k]).a * (mirrored ? -1.0 : 1.0);
-        bool tells = behind > 0.0 && lies_on(traced.surface, imageLoad(surface, traced.taps[k]), n, tolerance);
+        bool tells = behind > 0.0 && lies_on(traced.surface, imageLoad(surface, traced.taps[k]).r);
         count += tells ? 1.0 : 0.0;
         inverse += tells ? 1.0 / behind : 0.0;
     }
@@ -134,8 +134,9 @@ struct Image {
     vec3 point_vox;
     float frames_kept;
 };
-Image image_in(Traced traced, vec3 n, uint id, float tolerance, float height_px) {
-    vec3 at_vox = traced.surface.xyz;
+Image image_in(Traced traced, vec3 at_vox, float height_px) {
+    vec3 n = surface_normal(traced.surface);
+    uint id = surface_material(traced.surface);
     vec3 to_surface = at_vox - frame.camera_position_vox.xyz;
     float away = length(to_surface);
     vec3 dir = to_surface / max(away, 1e-6);
@@ -154,7 +155,7 @@ Image image_in(Traced traced, vec3 n, uint id, float tolerance, float height_px)
     bool over_a_bed = id == MATERIAL_WATER && n.y > 0.5;
     float beyond = over_a_bed ? BED_DEPTH_VOX / (away + BED_DEPTH_VOX) : 1.0;
     float glides = mix(beyond, 1.0, mirrored);
-    float behind = is_moving(traced.surface.w) ? 0.0 : image_behind(traced, n, tolerance, mirror);
+    float behind = is_moving(traced.surface) ? 0.0 : image_behind(traced, mirror);
     if (behind > 0.0) {
         float missed = IMAGE_MISSED;
         if (over_a_bed && !mirror) {
@@ -166,7 +167,7 @@ Image image_in(Traced traced, vec3 n, uint id, float tolerance, float height_px)
         }
         float follows = behind / (away + behind);
         glides = missed * follows + (mirror ? (1.0 - mirrored) * abs(follows - beyond) : mirrored * (1.0 - follows));
-    } else if (over_a_bed && !is_moving(traced.surface.w)) {
+    } else if (over_a_bed && !is_moving(traced.surface)) {
         behind = mirror ? IMAGE_FAR_VOX : BED_DEPTH_VOX;
     }
     return Image(at_vox + behind * dir, IMAGE_LAG_PX / max(pixels * glides, 1e-6));
@@ -174,10 +175,13 @@ Image image_in(Traced traced, vec3 n, uint id, float tolerance, float height_px)
 
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
-    Traced traced = traced_around(at);
-    vec4 here = traced.surface;
-    vec3 n = surface_normal(here.w);
-    uint id = surface_material(here.w);
+    vec2 size = vec2(imageSize(previous_radiance));
+    vec3 eye = frame.camera_position_vox.xyz;
+    vec3 dir = normalize(camera_ray((2.0 * gl_FragCoord.xy - size) / size));
+    Traced traced = traced_around(at, dir);
+    uint here = traced.surface;
+    vec3 point = surface_point(here, eye, dir);
+    uint id = surface_material(here);
 
     vec4 history = vec4(0.0);
     float weight_sum = 0.0;
@@ -185,16 +189,14 @@ void main() {
 #ifdef HISTORY_MOMENTS
     vec3 moments = vec3(0.0);
 #endif
-    float tolerance = plane_tolerance(here, frame.camera_position_vox.xyz);
-    Image image = Image(here.xyz, 1e6);
+    Image image = Image(point, 1e6);
     // To turn the eye moves no image.
-    bool eye_moved = frame.camera_position_vox.xyz != frame.previous_position_vox.xyz;
+    bool eye_moved = eye != frame.previous_position_vox.xyz;
     for (bool once = eye_moved && shows_an_image(id); once; once = false)
-        image = image_in(traced, n, id, tolerance, float(imageSize(previous_radiance).y));
+        image = image_in(traced, point, size.y);
     vec2 ndc;
     bool resampled = false;
     if (frame.world_size_vox.w != 0 && previous_ndc(image.point_vox, ndc) && all(lessThan(abs(ndc), vec2(1.0)))) {
-        vec2 size = vec2(imageSize(previous_radiance));
         vec2 texel = (ndc * 0.5 + 0.5) * size - 0.5;
         // A still camera reprojects onto itself up to rounding; without this, history would creep and blur.
         vec2 nearest = round(texel);
@@ -208,7 +210,7 @@ void main() {
             vec2 w2 = mix(1.0 - f, f, vec2(k & 1, k >> 1));
             float w = w2.x * w2.y;
             if (w <= 0.0 || any(lessThan(tap, ivec2(0))) || any(greaterThanEqual(tap, ivec2(size)))) continue;
-            if (!lies_on(here, imageLoad(previous_surface, tap), n, tolerance)) continue;
+            if (!lies_on(here, imageLoad(previous_surface, tap).r)) continue;
             vec4 kept = imageLoad(previous_radiance, tap);
             if (!is_finite(kept.rgb) || !is_finite(kept.a)) {
                 ++rejected;
@@ -226,17 +228,17 @@ void main() {
     if (weight_sum > 0.01) {
         history /= weight_sum;
         count = history.a;
-        if (id != SURFACE_SKY && changed_since(here.xyz - 0.5 * n))
+        if (id != SURFACE_SKY && changed_since(point - 0.5 * surface_normal(here)))
             count = min(count, SAMPLES_A_FRAME * FRAMES_KEPT_NEAR_CHANGE);
         count = min(count, SAMPLES_A_FRAME * image.frames_kept);
         count = min(count, frame.history.y - 1.0);
-        vec3 way = frame.camera_position_vox.xyz - frame.previous_position_vox.xyz;
-        vec3 to_surface = here.xyz - frame.camera_position_vox.xyz;
+        vec3 way = eye - frame.previous_position_vox.xyz;
+        vec3 to_surface = point - eye;
         // The tangent of the angle between the directions from there and from here.
         float turned = length(cross(way, to_surface)) / max(dot(to_surface + way, to_surface), 1e-6);
         if (resampled) count = min(count, SAMPLES_KEPT_IN_FLIGHT / max(1.0, turned / ANGLE_OF_A_JUMP));
 #ifndef HISTORY_BLEND
-        bool asked = is_retraced && !is_moving(here.w);
+        bool asked = is_retraced && !is_moving(here);
         float kept_of_light = frames_kept_of_light(ndc, asked);
         if (asked) count = min(count, SAMPLES_A_FRAME * kept_of_light);
 #endif

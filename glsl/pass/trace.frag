@@ -5,7 +5,7 @@
 #include "lib/surface.glsl"
 
 layout(location = 0) out vec4 out_radiance;  // rgb; a: image_vox of FirstSurface where asked for, else 1
-layout(location = 1) out vec4 out_surface;   // lib/surface.glsl
+layout(location = 1) out uint out_surface;   // lib/surface.glsl
 #ifdef TRACE_COUNT
 layout(location = 2) out vec2 out_counts;    // bounces and steps, means over the paths
 #endif
@@ -52,13 +52,13 @@ void main() {
             atomicAdd(rejected_samples, 1u);
     }
     out_radiance = vec4(sum, option(OPTION_IMAGE_DISTANCE) ? first.image_vox : 1.0);
-    out_surface = vec4(first.position_vox, surface_code(first.normal, first.material));
+    out_surface = surface_code(first.position_vox, first.normal, first.material);
 #ifdef TRACE_CLEAR
     if (first.material == MATERIAL_WATER) {
         vec3 within = clamp(first.position_vox - 0.5 * first.normal, vec3(0.0), vec3(frame.world_size_vox.xyz - 1));
         uint stamp = texelFetch(brick_changed, ivec3(within) >> BRICK_SHIFT, 0).r;
         // Stamps wrap: compare by signed difference.
-        if (int(stamp - still_since) > 0) out_surface.w += SURFACE_MOVES;
+        if (int(stamp - still_since) > 0) out_surface |= SURFACE_MOVES;
     }
 #endif
 }

@@ -1,13 +1,13 @@
 // What the renderer knows of each pixel besides its radiance, in false colours or as it is (VIEW_RAW, -1: nothing).
 // SHOWN_VIEW: one of shared/views.h; VIEW_EXACT: history and variance come from exact mode's sums; VIEW_SINGLE: there
 // is no history.
-#include "shared/frame.h"
 #include "shared/views.h"
+#include "lib/camera.glsl"
 #include "lib/materials.glsl"
 #include "lib/math.glsl"
 #include "lib/surface.glsl"
 
-layout(binding = 4) uniform sampler2D surface;
+layout(binding = 4) uniform usampler2D surface;
 layout(binding = 5) uniform sampler2D counts;      // of the last frame
 layout(binding = 6) uniform sampler2D history;     // a: frames kept, exact: frames lost
 layout(binding = 7) uniform sampler2D moments;     // as temporal.frag writes them; exact: sums
@@ -41,15 +41,18 @@ float variance_of_mean(ivec2 at) {
 
 vec3 value_at(ivec2 at) {
 #if SHOWN_VIEW == VIEW_ALBEDO
-    uint id = surface_material(texelFetch(surface, at, 0).w);
+    uint id = surface_material(texelFetch(surface, at, 0).r);
     return id == SURFACE_SKY ? vec3(0.0) : materials[id].base_roughness.rgb;
 #elif SHOWN_VIEW == VIEW_NORMAL
-    return surface_normal(texelFetch(surface, at, 0).w);
+    return surface_normal(texelFetch(surface, at, 0).r);
 #elif SHOWN_VIEW == VIEW_DEPTH
-    vec4 here = texelFetch(surface, at, 0);
-    return vec3(here.w == SURFACE_CODE_SKY ? VIEW_NOTHING : distance(here.xyz, frame.camera_position_vox.xyz));
+    uint here = texelFetch(surface, at, 0).r;
+    vec2 size = vec2(textureSize(surface, 0));
+    vec3 eye = frame.camera_position_vox.xyz;
+    vec3 dir = normalize(camera_ray((2.0 * vec2(at) + 1.0 - size) / size));
+    return vec3(here == SURFACE_CODE_SKY ? VIEW_NOTHING : distance(surface_point(here, eye, dir), eye));
 #elif SHOWN_VIEW == VIEW_MATERIAL
-    return vec3(surface_material(texelFetch(surface, at, 0).w));
+    return vec3(surface_material(texelFetch(surface, at, 0).r));
 #elif SHOWN_VIEW == VIEW_BOUNCES
     return texelFetch(counts, at, 0).rrr;
 #elif SHOWN_VIEW == VIEW_STEPS

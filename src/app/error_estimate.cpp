@@ -32,7 +32,7 @@ ErrorEstimate::Targets::Targets(glm::ivec2 size_px)
       variance_target("variance", {&variance}),
       radiance_target("radiance for its error", {&radiance}) {
     const glm::ivec2 tried_px = (size_px + stride - 1) / stride;
-    surface = gl::Texture({.label = "surface of a trial", .format = GL_RGBA32F, .size = {tried_px, 0}});
+    surface = gl::Texture({.label = "surface of a trial", .format = GL_R32UI, .size = {tried_px, 0}});
     for (int i = 0; i < 2; ++i) {
         samples[i] = gl::Texture({.label = "sample of a trial", .format = GL_RGBA32F, .size = {tried_px, 0}});
         sample_target[i] = gl::Framebuffer("sample of a trial", {&samples[i], &surface});

@@ -15,7 +15,7 @@ struct FrameTargets {
 
     FrameTargets() = default;
     explicit FrameTargets(glm::ivec2 size)
-        : surface({.label = "surface", .format = GL_RGBA32F, .size = {size, 0}}),
+        : surface({.label = "surface", .format = GL_R32UI, .size = {size, 0}}),
           history({.label = "history", .format = GL_RGBA32F, .size = {size, 0}}) {}
 };
 
@@ -55,7 +55,7 @@ struct RenderTargets {
             texture = gl::Texture({.label = "filtered", .format = GL_RGBA32F, .size = {kept, 0}});
         if (upsampled)
             traced_surface =
-                gl::Texture({.label = "traced surface", .format = GL_RGBA32F, .size = {traced, 0}});
+                gl::Texture({.label = "traced surface", .format = GL_R32UI, .size = {traced, 0}});
         for (int i = 0; i < 2; ++i) {
             radiance[i] = gl::Texture({.label = "radiance", .format = GL_RGBA32F, .size = {traced, 0}});
             frames[i] = FrameTargets(kept);

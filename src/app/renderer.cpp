@@ -21,6 +21,11 @@ namespace {
 // Water counts as moving for so many frames after a change.
 constexpr std::size_t moving_frames = 8;
 
+// Of versions of the world, which wrap.
+bool is_later(std::uint32_t a, std::uint32_t b) {
+    return a != b && a - b <= INT32_MAX;
+}
+
 }  // namespace
 
 TraceShapes Renderer::Parts::shapes(const Simulation& simulation) const {
@@ -127,10 +132,14 @@ TracePass::Inputs Renderer::Parts::trace_inputs(const Simulation& simulation, co
 }
 
 bool Renderer::Parts::world_changed(const Simulation& simulation) const {
-    if (simulation.version() == world_version) return false;
-    // Versions wrap: compare by signed difference.
-    const std::uint32_t since = simulation.last_change() - static_cast<std::uint32_t>(world_version);
-    return since != 0 && since <= INT32_MAX;
+    return simulation.version() != world_version &&
+           is_later(simulation.last_change(), static_cast<std::uint32_t>(world_version));
+}
+
+// False where no pixel can have the mark of moving water (glsl/lib/surface.glsl).
+bool Renderer::Parts::water_may_move(const Simulation& simulation) const {
+    return static_cast<std::uint32_t>(simulation.version()) != versions.front() &&
+           is_later(simulation.last_change(), versions.front());
 }
 
 // Some of the last frame's paths, with its eye and its random numbers, in the world as it is now. False where
@@ -179,11 +188,14 @@ const gl::Texture& Renderer::Parts::reproject_and_filter(const Simulation& simul
     }
     if (settings.filter == Filter::None) return *radiance;
     const bool gaussian = settings.filter == Filter::Gaussian;
+    const FilterPass::Kind kind = gaussian                     ? FilterPass::Kind::Gaussian
+                                  : water_may_move(simulation) ? FilterPass::Kind::Moving
+                                                               : FilterPass::Kind::Still;
     const int axes = gaussian ? 2 : 1;
     for (int i = 0; i < axes * settings.filter_passes; ++i) {
         const int distance = 1 << (i / axes);
         const glm::ivec2 step(gaussian && i % 2 == 1 ? 0 : distance, gaussian && i % 2 == 0 ? 0 : distance);
-        built(filter[gaussian], gaussian)
+        built(filter[static_cast<int>(kind)], kind)
             .record({.surfaces = surfaces(current, *radiance), .step_px = step},
                     {.target = targets->filter_target[i % 2]}, timers);
         radiance = &targets->filtered[i % 2];
@@ -341,10 +353,10 @@ std::vector<std::string> Renderer::poll_reload() {
     for (int i = 0; i < 2; ++i) {
         for (auto& pair : parts_->temporal[i])
             for (auto& pass : pair) poll(pass);
-        poll(parts_->filter[i]);
         for (auto& pass : parts_->display[i]) poll(pass);
         poll(parts_->pick[i]);
     }
+    for (auto& pass : parts_->filter) poll(pass);
     poll(parts_->accumulate);
     poll(parts_->antialias);
     if (parts_->emitters) parts_->emitters->poll_reload(messages);

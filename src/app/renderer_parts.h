@@ -67,7 +67,7 @@ struct Renderer::Parts {
     bool effect_is_late = false;
     std::optional<EmittersPass> emitters;
     std::optional<TemporalPass> temporal[2][2][2];  // [blend][moments][upsample]
-    std::optional<FilterPass> filter[2];            // [gaussian]
+    std::optional<FilterPass> filter[3];            // [FilterPass::Kind]
     std::optional<AccumulatePass> accumulate;
     std::optional<AntialiasPass> antialias;
     std::optional<DisplayPass> display[2][2];  // [radiance only][refined]
@@ -128,6 +128,7 @@ struct Renderer::Parts {
     bool world_changed(const Simulation& simulation) const;
     bool retrace(const Simulation& simulation, const TracePass& pass);
     const gl::Texture& accumulate_exact();
+    bool water_may_move(const Simulation& simulation) const;
     const gl::Texture& reproject_and_filter(const Simulation& simulation, bool retraced);
     // Edges smoothed, where it is asked for: `radiance` is of the pixels whose surfaces the last frame keeps.
     const gl::Texture& smooth_edges(const Simulation& simulation, const gl::Texture& radiance);

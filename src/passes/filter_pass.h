@@ -19,14 +19,15 @@ class FilterPass {
         const gl::Framebuffer& target;
     };
 
-    // gaussian: over everything, separable; otherwise within one surface.
-    explicit FilterPass(bool gaussian);
+    // Gaussian: over everything, separable; otherwise within one surface. Moving: that of water may move.
+    enum class Kind { Still, Moving, Gaussian };
+    explicit FilterPass(Kind kind);
     void record(const Inputs& inputs, const Outputs& outputs, gl::Timers& timers) const;
     gl::Program& program() { return program_; }
 
   private:
     gl::Program program_;
-    bool gaussian_;
+    Kind kind_;
 };
 
 }  // namespace tarn
