@@ -29,7 +29,7 @@ std::vector<Bar> bars() {
     for (const char* scene : {"terrain-256", "terrain-512"})
         list.push_back({"diffuse rays, Tarn / Embree's single rays", rays(scene, "diffuse", "tarn"),
                         rays(scene, "diffuse", "embree-1"), 0.4, 1, true});
-    for (const char* kind : {"primary", "diffuse", "in-water", "shadow"}) {
+    for (const char* kind : {"all kinds", "primary", "diffuse", "in-water", "shadow"}) {
         list.push_back({"rays, Tarn / voxel by voxel", rays("terrain-256", kind, "tarn"),
                         rays("terrain-256", kind, "voxel"), 5, 8, true});
         list.push_back({"rays, Tarn / voxel by voxel", rays("terrain-512", kind, "tarn"),

@@ -69,6 +69,26 @@ void add_contestants(RayWorld& in, std::vector<Contestant>& contestants) {
     }
 }
 
+// After the last round: rays a second of all kinds together, as many of each as the view asks for.
+void add_totals(const RayWorld& in, std::vector<BenchFigure>& figures) {
+    const std::string& scene = in.world->scene.name;
+    for (const char* who : {"tarn", "voxel", "embree-8", "embree-1"}) {
+        double rays = 0;
+        std::vector<double> microseconds;  // of each round that all kinds took part in
+        for (const auto& c : in.cases) {
+            const BenchFigure* rate = find_figure(figures, {"rays", scene, c->set.name, who});
+            if (rate == nullptr) return;
+            const double count = static_cast<double>(c->set.rays.size());
+            if (rays == 0) microseconds.assign(rate->samples.size(), 0);
+            microseconds.resize(std::min(microseconds.size(), rate->samples.size()));
+            for (std::size_t i = 0; i < microseconds.size(); ++i) microseconds[i] += count / rate->samples[i];
+            rays += count;
+        }
+        for (const double us : microseconds)
+            add_sample(figures, {"rays", scene, "all kinds", who}, "Mrays/s", rays / us);
+    }
+}
+
 // After the last round: what the contestants found.
 void compare_results(const RayWorld& in, BenchResult& result) {
     const std::string& scene = in.world->scene.name;
@@ -134,6 +154,7 @@ void run_rays_suite(const BenchOptions& options, BenchResult& result) {
         add_contestants(in, contestants);
     }
     run_rounds(contestants, {.rounds = options.rounds}, result.figures, options.progress);
+    for (const RayWorld& in : worlds) add_totals(in, result.figures);
     for (const RayWorld& in : worlds) compare_results(in, result);
 }
 

@@ -34,7 +34,7 @@ struct PresetRow {
     std::array<const char*, 5> values;  // baseline, fast, balanced, quality, exact
 };
 constexpr PresetRow presets[] = {{"max_bounces", {"8", "16", "24", "64", "1024"}},
-                                 {"max_diffuse_bounces", {"1024", "2", "2", "4", "1024"}},
+                                 {"max_diffuse_bounces", {"1024", "2", "3", "3", "1024"}},
                                  {"max_distance_vox", {"4096", "4096", "4096", "4096", "10000000"}},
                                  {"samples_per_pixel", {"1", "1", "1", "2", "1"}},
                                  {"resolution_scale", {"1", "0.4", "0.55", "1", "1"}},

@@ -45,6 +45,12 @@ class Bench(Case):
             self.assertLessEqual(figures["rays", "terrain-32", kind + ": steps", "tarn"]["median"],
                                  figures["rays", "terrain-32", kind + ": steps", "voxel"]["median"])
         self.assertEqual(figures["rays", "terrain-32", "primary: rays", "all"]["median"], 640 * 360)
+        counts = {what.split(": ")[0]: figure["median"] for (_, _, what, who), figure in figures.items()
+                  if what.endswith(": rays") and who == "all"}
+        for who in contestants:
+            time = sum(count / figures["rays", "terrain-32", kind, who]["samples"][0] for kind, count in counts.items())
+            self.assertAlmostEqual(figures["rays", "terrain-32", "all kinds", who]["samples"][0],
+                                   sum(counts.values()) / time, places=3)
         awake = {who: figures["sim", "terrain-32", "active bricks", who]["median"]
                  for who in ("awake", "tenth", "asleep")}
         self.assertEqual((awake["awake"], awake["asleep"]), (8 ** 3, 0))
