@@ -38,8 +38,8 @@ vec3 surface_normal(uint code) { return ((code >> 8) & 1u) == 0u ? surface_axis(
 // Of its plane along its axis.
 float surface_plane_vox(uint code) { return float(code >> SURFACE_PLANE_SHIFT) / SURFACE_PLANES_PER_VOX; }
 
-// Stands for the distance of the sky.
-const float SURFACE_FAR_VOX = 1e6;
+// Stands for the distance of the sky; farther than any world may lie.
+const float SURFACE_FAR_VOX = 1e8;
 
 // How far along the ray its plane lies; not finite or below 0 where the ray does not meet it.
 float distance_to_plane(uint code, vec3 eye_vox, vec3 dir) {

@@ -37,7 +37,7 @@ const float FRAMES_OF_NOISE = 12.0;
 
 // To here all neighbours count in full; then less, for there is less noise to trade for sharpness. To tell by each
 // pixel's variance in place of its frames gained nothing: of so few frames it is as noisy as the light.
-const float NOISY_FRAMES = 5.0;
+const float NOISY_FRAMES = 2.0;
 // Chance decides what a path through water or glass sees: it takes so many times the frames.
 const float CLEAR_IS_NOISIER = 1.5;
 // Wider passes are for pixels that have next to no history.

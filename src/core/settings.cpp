@@ -49,7 +49,7 @@ constexpr PresetRow presets[] = {{"max_bounces", {"8", "16", "24", "64", "1024"}
                                  {"smooth_water", {"false", "true", "true", "true", "false"}},
                                  {"roulette_after", {"1024", "1", "1", "4", "4"}},
                                  {"jitter", {"false", "false", "false", "false", "true"}},
-                                 {"firefly_limit", {"0", "4", "4", "4", "0"}},
+                                 {"firefly_limit", {"0", "4", "2", "4", "0"}},
                                  {"history", {"blend", "count", "count", "count", "exact"}},
                                  {"history_alpha", {"0.1", "0.1", "0.1", "0.1", "0.1"}},
                                  {"history_cap", {"48", "32", "48", "256", "48"}},

@@ -244,7 +244,7 @@ TEST_F(HistoryTest, TheEdgeAwareFilterAveragesNoiseWithinAPlaneAndLessOfItThereI
         const Picture calm = filtered.shoot({64, 64});
         if (frame != 1 && frame != 3 && frame != 12) continue;
         // Of sides, corners and sides two steps away, beside the pixel's own 1.
-        const double strength = std::min(1.0, 5.0 / frame);
+        const double strength = std::min(1.0, 2.0 / frame);
         const double weights[] = {0.9, frame < 4 ? 0.7 : 0.0, frame < 3 ? 0.4 : 0.0};
         double sum = 1;
         double squares = 1;
