@@ -30,9 +30,8 @@ const int BOUNCES_UNAIDED = 64;
 const int WATER_STEPS_PASSED_MAX = 64;
 
 struct FirstSurface {
-    vec3 position_vox;  // of the first hit; far along the ray where there is none
-    vec3 normal;        // 0 for sky
-    float distance_vox;
+    vec3 position_vox;  // of the first hit; 0 for sky
+    vec3 normal;        // 0 for sky and inside a solid
     uint material;      // id; SURFACE_SKY for sky
     // What a smooth surface mirrors (negative) or lets through, also through the far side of a pane: how far behind it
     // that seems to lie along the ray of the eye; 0: nothing or not known
@@ -41,7 +40,7 @@ struct FirstSurface {
 
 // Radiance along the ray of the eye from `eye_vox` towards `dir` (unit).
 vec3 trace_path(vec3 eye_vox, vec3 dir, out FirstSurface first) {
-    first = FirstSurface(eye_vox + dir * 1e6, vec3(0.0), 1e6, SURFACE_SKY, 0.0);
+    first = FirstSurface(vec3(0.0), vec3(0.0), SURFACE_SKY, 0.0);
     float t_entry;
     RayStart ray;
     vec3 light = vec3(0.0);
@@ -59,7 +58,7 @@ vec3 trace_path(vec3 eye_vox, vec3 dir, out FirstSurface first) {
     if (!enter_world(eye_vox, dir, ray, t_entry))
         return sky_radiance(dir) + (in_sun_disc(dir) ? frame.sun_radiance.rgb : vec3(0.0));
     if (!transmits(ray.medium)) {  // the eye is inside a solid
-        first = FirstSurface(eye_vox, vec3(0.0), 0.0, ray.medium, 0.0);
+        first = FirstSurface(eye_vox, vec3(0.0), ray.medium, 0.0);
         return vec3(0.0);
     }
     float t_max = frame.trace_limits.x;
@@ -123,7 +122,7 @@ vec3 trace_path(vec3 eye_vox, vec3 dir, out FirstSurface first) {
 #endif
         if (bounce == 0) {
             uint shown = hit.beyond == MATERIAL_AIR ? ray.medium : hit.beyond;
-            first = FirstSurface(v.start.origin_vox, axis_vector(v.axis, v.side), t_entry + hit.t, shown, 0.0);
+            first = FirstSurface(v.start.origin_vox, axis_vector(v.axis, v.side), shown, 0.0);
         }
         Material beyond = materials[hit.beyond];
         vec3 emitted = beyond.emission_metallic.rgb;

@@ -61,13 +61,12 @@ bool on_parallel_planes(uint a, uint b) { return ((a ^ b) & SURFACE_KIND) == 0u;
 // Levels of neighbouring voxels of water differ by sixteenths and move by them, and are shaded as one surface: planes
 // within half a voxel.
 const int WATER_PLANES = 8;
-// Moving water changes its faces faster than light can be gathered: those of pixels side by side count as one surface,
-// but for parallel ones farther apart.
+// Moving water changes its faces faster than light can be gathered: all of them count as one surface, but for parallel
+// ones farther apart than this. Passes that look farther than the next pixel test how far the points are, too.
 const float MOVING_TOLERANCE_VOX = 4.0;
 const int MOVING_PLANES = int(MOVING_TOLERANCE_VOX * SURFACE_PLANES_PER_VOX);
 
-// Whether `there`, of a pixel beside it or the same, lies on the plane and the material of `here`; the sky is one
-// surface.
+// Whether `there` lies on the plane and the material of `here`; the sky is one surface.
 bool lies_on(uint here, uint there) {
     bool both_move = is_moving(here & there);
     int tolerance = both_move ? MOVING_PLANES : surface_material(here) == MATERIAL_WATER ? WATER_PLANES : 0;

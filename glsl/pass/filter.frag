@@ -52,15 +52,6 @@ vec3 point_at(uint code, ivec2 pixel) {
     vec3 dir = normalize(camera_ray((2.0 * vec2(pixel) + 1.0 - size) / size));
     return surface_point(code, frame.camera_position_vox.xyz, dir);
 }
-
-// How many pixels along x and y span less than the tolerance of moving water on the plane of its face.
-ivec2 reach_on_moving(uint code, ivec2 pixel) {
-    vec3 point = point_at(code, pixel);
-    vec3 across = abs(point_at(code, pixel + ivec2(1, 0)) - point);
-    vec3 along = abs(point_at(code, pixel + ivec2(0, 1)) - point);
-    vec2 step_vox = vec2(max_component(across), max_component(along));
-    return ivec2(MOVING_TOLERANCE_VOX / max(step_vox, 1e-3));
-}
 #endif
 
 int taps_at(float frames) { return frames < FRAMES_OF_FAR_SIDES ? 12 : frames < FRAMES_OF_CORNERS ? 8 : 4; }
@@ -99,8 +90,6 @@ void main() {
 #ifdef FILTER_MOVING
     bool moving = is_moving(here) && strength > 0.0;
     if (moving) taps = MOVING_TAPS;
-    ivec2 reach = ivec2(1000);
-    for (bool once = moving; once; once = false) reach = reach_on_moving(here, at);
 #endif
     for (int k = 0; k < taps; ++k) {
         int wider = k / 12;
@@ -112,7 +101,9 @@ void main() {
         bool step_of_stairs = on_parallel_planes(here, there) && planes_apart(here, there) <= stairs;
         bool meets = lies_on(here, there);
 #ifdef FILTER_MOVING
-        meets = meets && all(lessThanEqual(abs(tap - at), reach));
+        // Its taps reach far: what moves is to be near.
+        for (bool once = meets && is_moving(here & there); once; once = false)
+            meets = all(lessThan(abs(point_at(there, tap) - point_at(here, at)), vec3(MOVING_TOLERANCE_VOX)));
 #endif
         meets = meets || step_of_stairs;
         vec3 value = meets ? imageLoad(radiance, tap).rgb : vec3(0.0);

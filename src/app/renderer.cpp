@@ -136,9 +136,11 @@ bool Renderer::Parts::world_changed(const Simulation& simulation) const {
            is_later(simulation.last_change(), static_cast<std::uint32_t>(world_version));
 }
 
-// False where no pixel can have the mark of moving water (glsl/lib/surface.glsl).
+// False where next to no pixel can have the mark of moving water (glsl/lib/surface.glsl). May wait for the
+// GPU.
 bool Renderer::Parts::water_may_move(const Simulation& simulation) const {
-    return static_cast<std::uint32_t>(simulation.version()) != versions.front() &&
+    return contents.may_hold(simulation, MATERIAL_WATER) &&
+           static_cast<std::uint32_t>(simulation.version()) != versions.front() &&
            is_later(simulation.last_change(), versions.front());
 }
 
@@ -167,7 +169,8 @@ const gl::Texture& Renderer::Parts::accumulate_exact() {
     return targets->filtered[current];
 }
 
-const gl::Texture& Renderer::Parts::reproject_and_filter(const Simulation& simulation, bool retraced) {
+const gl::Texture& Renderer::Parts::reproject_and_filter(const Simulation& simulation, bool retraced,
+                                                         bool water_moves) {
     const gl::Texture* radiance = &targets->radiance[current];
     if (settings.history != History::None) {
         const bool blend = settings.history == History::Blend;
@@ -188,9 +191,12 @@ const gl::Texture& Renderer::Parts::reproject_and_filter(const Simulation& simul
     }
     if (settings.filter == Filter::None) return *radiance;
     const bool gaussian = settings.filter == Filter::Gaussian;
-    const FilterPass::Kind kind = gaussian                     ? FilterPass::Kind::Gaussian
-                                  : water_may_move(simulation) ? FilterPass::Kind::Moving
-                                                               : FilterPass::Kind::Still;
+    const FilterPass::Kind kind = gaussian      ? FilterPass::Kind::Gaussian
+                                  : water_moves ? FilterPass::Kind::Moving
+                                                : FilterPass::Kind::Still;
+    // Before it is needed: the first stroke of water is not to wait for it.
+    if (!gaussian && contents.may_hold(simulation, MATERIAL_WATER))
+        built(filter[static_cast<int>(FilterPass::Kind::Moving)], FilterPass::Kind::Moving);
     const int axes = gaussian ? 2 : 1;
     for (int i = 0; i < axes * settings.filter_passes; ++i) {
         const int distance = 1 << (i / axes);
@@ -223,10 +229,12 @@ void Renderer::Parts::render_preset(const Simulation& simulation, const Settings
     if (pass.features().emitters) update_emitters(simulation);
     views.prepare(settings, *targets, has_history);
     const bool retraced = retrace(simulation, pass);
+    // Asked before the trace is recorded, or the answer would wait for it.
+    const bool water_moves = settings.filter == Filter::EdgeAware && water_may_move(simulation);
     pass.record(trace_inputs(simulation, pass.features()), {.target = views.trace_target(*targets, current)},
                 timers);
     shown = settings.history == History::Exact ? &accumulate_exact()
-                                               : &reproject_and_filter(simulation, retraced);
+                                               : &reproject_and_filter(simulation, retraced, water_moves);
     shown = &smooth_edges(simulation, *shown);
     has_history = !effect_is_late;
     frames_kept = std::min<std::uint64_t>(frames_kept + 1, FRAMES_KEPT_MAX);

@@ -129,7 +129,7 @@ struct Renderer::Parts {
     bool retrace(const Simulation& simulation, const TracePass& pass);
     const gl::Texture& accumulate_exact();
     bool water_may_move(const Simulation& simulation) const;
-    const gl::Texture& reproject_and_filter(const Simulation& simulation, bool retraced);
+    const gl::Texture& reproject_and_filter(const Simulation& simulation, bool retraced, bool water_moves);
     // Edges smoothed, where it is asked for: `radiance` is of the pixels whose surfaces the last frame keeps.
     const gl::Texture& smooth_edges(const Simulation& simulation, const gl::Texture& radiance);
     void render_preset(const Simulation& simulation, const Settings& now, glm::ivec2 size_px);

@@ -7,7 +7,8 @@ namespace tarn {
 namespace {
 
 gl::ProgramDesc describe(FilterPass::Kind kind) {
-    gl::ProgramDesc desc{.label = "filter",
+    constexpr const char* labels[] = {"filter", "filter moving", "filter gaussian"};
+    gl::ProgramDesc desc{.label = labels[static_cast<int>(kind)],
                          .compute = {},
                          .vertex = "pass/fullscreen.vert",
                          .fragment = "pass/filter.frag",

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "app/replay.h"
+#include "gl/buffer.h"
+#include "gl/program.h"
 #include "studio.h"
 #include "world/edits.h"
 #include "world/recording.h"
@@ -229,6 +231,44 @@ TEST_F(ReuseTest, RestEndsWithAMoveAnEditOrAnotherViewAndCanBeSwitchedOff) {
     studio.settings().view = ViewKind::Picture;
     studio.settings().refine_at_rest = false;
     EXPECT_EQ(rest(), 32u);
+}
+
+TEST_F(ReuseTest, ASurfaceIsWhatItsCodeSays) {
+    struct Result {
+        std::uint32_t cases = 0, wrong_code = 0, wrong_point = 0, wrong_still = 0, wrong_moving = 0;
+    } result;
+    const gl::Program program({.label = "surface code",
+                               .compute = "tests/kernels/surface_code.comp",
+                               .vertex = {},
+                               .fragment = {},
+                               .defines = {}});
+    gl::Buffer buffer("result", sizeof(Result));
+    buffer.upload(std::span<const Result>(&result, 1));
+    buffer.bind_storage(0);
+    // Planes up to 1024 voxels, six faces, all ids but the sky's.
+    program.dispatch({257, 6, 255});
+    buffer.download(std::span(&result, 1));
+    EXPECT_EQ(result.cases, 257u * 64 * 6 * 255);
+    EXPECT_EQ(result.wrong_code, 0u);
+    EXPECT_EQ(result.wrong_point, 0u);
+    EXPECT_EQ(result.wrong_still, 0u);
+    EXPECT_EQ(result.wrong_moving, 0u);
+}
+
+// Water that may move has a filter of its own.
+TEST_F(ReuseTest, TheFilterOfMovingWaterIsTheSameForAllElse) {
+    Scene scene = noisy_floor();
+    for (const glm::ivec3 cell : {glm::ivec3(1, 0, 1), glm::ivec3(2, 0, 1)})
+        scene.cells.at(cell) = MATERIAL_WATER_FULL;  // below the floor's top, out of sight
+    apply_quality(scene.settings, Quality::Balanced);
+    scene.settings.refine_at_rest = scene.settings.retrace_changes = false;
+    Studio still(scene);
+    Studio moving(scene);
+    for (int frame = 0; frame < 6; ++frame) {
+        put(moving, {30, 0, 30}, 0, frame % 2 == 0 ? MATERIAL_STONE : MATERIAL_DIRT);
+        EXPECT_EQ(still.shoot({32, 32}).image.pixels, moving.shoot({32, 32}).image.pixels) << frame;
+    }
+    EXPECT_GT(moving.simulation.last_change(), still.simulation.last_change());
 }
 
 // The bar for ghosts: where the picture changed, the error is soon within 1.5 times of what it is in the long
