@@ -49,8 +49,9 @@ const int MOVING_TAPS = 36;
 
 vec3 point_at(uint code, ivec2 pixel) {
     vec2 size = vec2(imageSize(surface));
-    vec3 dir = normalize(camera_ray((2.0 * vec2(pixel) + 1.0 - size) / size));
-    return surface_point(code, frame.camera_position_vox.xyz, dir);
+    // As long as it is: a length of 1 would give the same point.
+    vec3 ray = camera_ray((2.0 * vec2(pixel) + 1.0 - size) / size);
+    return surface_point(code, frame.camera_position_vox.xyz, ray);
 }
 #endif
 
@@ -90,6 +91,7 @@ void main() {
 #ifdef FILTER_MOVING
     bool moving = is_moving(here) && strength > 0.0;
     if (moving) taps = MOVING_TAPS;
+    vec3 point = point_at(here, at);
 #endif
     for (int k = 0; k < taps; ++k) {
         int wider = k / 12;
@@ -102,8 +104,8 @@ void main() {
         bool meets = lies_on(here, there);
 #ifdef FILTER_MOVING
         // Its taps reach far: what moves is to be near.
-        for (bool once = meets && is_moving(here & there); once; once = false)
-            meets = all(lessThan(abs(point_at(there, tap) - point_at(here, at)), vec3(MOVING_TOLERANCE_VOX)));
+        bool near = all(lessThan(abs(point_at(there, tap) - point), vec3(MOVING_TOLERANCE_VOX)));
+        meets = meets && (near || !is_moving(here & there));
 #endif
         meets = meets || step_of_stairs;
         vec3 value = meets ? imageLoad(radiance, tap).rgb : vec3(0.0);
