@@ -48,9 +48,8 @@ const float WIDE_FRAMES = 8.0;
 const int MOVING_TAPS = 36;
 
 vec3 point_at(uint code, ivec2 pixel) {
-    vec2 size = vec2(imageSize(surface));
     // As long as it is: a length of 1 would give the same point.
-    vec3 ray = camera_ray((2.0 * vec2(pixel) + 1.0 - size) / size);
+    vec3 ray = pixel_ray(vec2(pixel) + 0.5, vec2(imageSize(surface)));
     return surface_point(code, frame.camera_position_vox.xyz, ray);
 }
 #endif

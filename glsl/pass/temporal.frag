@@ -177,7 +177,7 @@ void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     vec2 size = vec2(imageSize(previous_radiance));
     vec3 eye = frame.camera_position_vox.xyz;
-    vec3 dir = normalize(camera_ray((2.0 * gl_FragCoord.xy - size) / size));
+    vec3 dir = normalize(pixel_ray(gl_FragCoord.xy, size));
     Traced traced = traced_around(at, dir);
     uint here = traced.surface;
     vec3 point = surface_point(here, eye, dir);

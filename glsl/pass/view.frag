@@ -47,10 +47,9 @@ vec3 value_at(ivec2 at) {
     return surface_normal(texelFetch(surface, at, 0).r);
 #elif SHOWN_VIEW == VIEW_DEPTH
     uint here = texelFetch(surface, at, 0).r;
-    vec2 size = vec2(textureSize(surface, 0));
     vec3 eye = frame.camera_position_vox.xyz;
     // Of the pixel's middle, also where the ray that found the plane was another.
-    vec3 dir = normalize(camera_ray((2.0 * vec2(at) + 1.0 - size) / size));
+    vec3 dir = normalize(pixel_ray(vec2(at) + 0.5, vec2(textureSize(surface, 0))));
     return vec3(here == SURFACE_CODE_SKY ? VIEW_NOTHING : distance(surface_point(here, eye, dir), eye));
 #elif SHOWN_VIEW == VIEW_MATERIAL
     return vec3(surface_material(texelFetch(surface, at, 0).r));

@@ -194,7 +194,7 @@ const gl::Texture& Renderer::Parts::reproject_and_filter(const Simulation& simul
     const FilterPass::Kind kind = gaussian      ? FilterPass::Kind::Gaussian
                                   : water_moves ? FilterPass::Kind::Moving
                                                 : FilterPass::Kind::Still;
-    // Before it is needed: the first stroke of water is not to wait for it.
+    // Before it is needed, where there is water: the first tick that moves it is not to wait for it.
     if (!gaussian && contents.may_hold(simulation, MATERIAL_WATER))
         built(filter[static_cast<int>(FilterPass::Kind::Moving)], FilterPass::Kind::Moving);
     const int axes = gaussian ? 2 : 1;

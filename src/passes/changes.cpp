@@ -45,6 +45,7 @@ void ChangeReader::read(const ChangeLog& log, std::uint32_t version) {
     glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     seen_version_ = version;
     restart_ = false;
+    last_change_.reset();
 }
 
 void ChangeReader::run(const gl::Program& program, const ChangeLog& log) const {
@@ -57,9 +58,12 @@ void ChangeReader::run(const gl::Program& program, const ChangeLog& log) const {
 }
 
 std::uint32_t ChangeReader::last_change() const {
-    std::uint32_t version = 0;
-    state_.download(std::span(&version, 1), reader_version_word * word);
-    return version;
+    if (!last_change_) {
+        std::uint32_t version = 0;
+        state_.download(std::span(&version, 1), reader_version_word * word);
+        last_change_ = version;
+    }
+    return *last_change_;
 }
 
 }  // namespace tarn

@@ -41,7 +41,7 @@ class ChangeReader {
     void run(const gl::Program& program, const ChangeLog& log) const;
     // From now on all are new again.
     void restart() { restart_ = true; }
-    // The `version` of the last call that found a change. Waits for the GPU.
+    // The `version` of the last `read` that found a change. Waits for the GPU once after each.
     std::uint32_t last_change() const;
     std::optional<std::string> poll_reload() { return program_.poll_reload(); }
 
@@ -50,6 +50,7 @@ class ChangeReader {
     gl::Buffer state_;
     std::uint32_t seen_version_ = 0;
     bool restart_ = true;
+    mutable std::optional<std::uint32_t> last_change_;  // once asked for
 };
 
 }  // namespace tarn
