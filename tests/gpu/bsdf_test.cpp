@@ -54,6 +54,7 @@ TEST_F(BsdfTest, SequencesSpreadEvenlyAndEachOfTheirPathsIsUnbiased) {
     struct Result {
         std::array<std::uint32_t, 16> histogram{};
         std::uint32_t products = 0, least = 64, most = 0;
+        std::array<std::uint32_t, 2> least_pairs{16, 16}, most_pairs{};
     };
     const gl::Program program = kernel("tests/kernels/rng_sequence.comp");
     gl::Buffer buffer("result", sizeof(Result));
@@ -73,6 +74,11 @@ TEST_F(BsdfTest, SequencesSpreadEvenlyAndEachOfTheirPathsIsUnbiased) {
         // 4 expected; of 64 independent numbers some pixel has none and some pixel 15 in a bin.
         EXPECT_GE(result.least, 2u);
         EXPECT_LE(result.most, 6u);
+        // 4 expected; with steps that suit consecutive paths alone some pixel has none, and 10.
+        for (const int stride : {0, 1}) {
+            EXPECT_GE(result.least_pairs[stride], 1u) << stride;
+            EXPECT_LE(result.most_pairs[stride], 7u) << stride;
+        }
     }
 }
 
