@@ -21,6 +21,7 @@ layout(binding = 8) uniform sampler2D previous_moments;
 uniform bool has_moments;  // the previous frame wrote some
 #endif
 
+uniform float new_pixel_samples;  // a new pixel's this frame, in place of each one
 uniform uint previous_version;  // of the world, when the previous frame was made
 
 #ifndef HISTORY_BLEND
@@ -103,6 +104,7 @@ bool changed_since(vec3 at_vox) {
     return int(stamp - previous_version) > 0;
 }
 
+#include "lib/new_pixel.glsl"
 #include "lib/traced.glsl"
 
 // How far behind the surface that the pixel shows its image seems to lie, what it mirrors or what is behind it; 0 where
@@ -243,7 +245,7 @@ void main() {
         if (asked) count = min(count, SAMPLES_A_FRAME * kept_of_light);
 #endif
     }
-    float worth = 1.0;
+    float worth = new_pixel_samples > 1.0 && traced.own && is_new_pixel(here, point) ? new_pixel_samples : 1.0;
 #ifdef HISTORY_UPSAMPLE
     if (!traced.own) worth = count < SAMPLES_WITHOUT_NEIGHBOURS ? (traced.met ? NEIGHBOURS_WORTH : STRANGERS_WORTH) : 0.0;
     out_surface = here;

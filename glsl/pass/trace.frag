@@ -4,6 +4,10 @@
 #include "lib/scatter.glsl"
 #include "lib/surface.glsl"
 
+layout(rgba32f, binding = IMAGE_PREVIOUS_RADIANCE) readonly restrict uniform image2D previous_radiance;
+layout(r32ui, binding = IMAGE_PREVIOUS_SURFACE) readonly restrict uniform uimage2D previous_surface;
+#include "lib/new_pixel.glsl"
+
 layout(location = 0) out vec4 out_radiance;  // rgb; a: image_vox of FirstSurface where asked for, else 1
 layout(location = 1) out uint out_surface;   // lib/surface.glsl
 #ifdef TRACE_COUNT
@@ -16,6 +20,7 @@ uniform uint still_since;  // water in bricks that changed after this version of
 #endif
 
 uniform uint stride;
+uniform uint new_pixel_samples;  // in place of each one; 1: the previous frame is not read
 
 layout(std430, binding = 0) buffer RejectedBlock { uint rejected_samples; };
 
@@ -31,27 +36,36 @@ void main() {
     vec2 size = vec2(scattered ? frame.size_px.zw : frame.size_px.xy);
     vec2 center = scattered ? vec2(shown_pixel(ivec2(pixel))) + 0.5 : vec2(pixel) + 0.5;
     vec2 ndc = (2.0 * center - size) / size;
-    uint count = frame.counters.z;
+    uint each_frame = frame.counters.z;
+    uint count = each_frame;
     for (uint i = 0u; i < count; ++i) {
-        if (option(OPTION_LOW_DISCREPANCY))
-            rng_seed_sequence(pixel, frame.counters.x * count + i, frame.counters.y);
+        if (option(OPTION_LOW_DISCREPANCY) && i < each_frame)
+            rng_seed_sequence(pixel, frame.counters.x * each_frame + i, frame.counters.y);
         else
             rng_seed(pixel, frame.counters.x, i, frame.counters.y);
         vec2 at = ndc;
         if (option(OPTION_JITTER)) at += (2.0 * rng_vec2() - 1.0) / size;
         FirstSurface surface;
         vec3 radiance = trace_path(frame.camera_position_vox.xyz, normalize(camera_ray(at)), surface);
-        if (i == 0u) first = surface;
+        if (i == 0u) {
+            first = surface;
+            bool more = new_pixel_samples > 1u;
+            if (more && is_new_pixel(surface_code(first.position_vox, first.normal, first.material), first.position_vox))
+                count *= new_pixel_samples;
+        }
 #ifdef TRACE_COUNT
-        out_counts += vec2(path_bounces, steps_walked) / float(count);
+        out_counts += vec2(path_bounces, steps_walked);
         path_bounces = steps_walked = 0;
 #endif
         if (is_finite(radiance))
-            sum += radiance / float(count);
+            sum += radiance;
         else
             atomicAdd(rejected_samples, 1u);
     }
-    out_radiance = vec4(sum, option(OPTION_IMAGE_DISTANCE) ? first.image_vox : 1.0);
+#ifdef TRACE_COUNT
+    out_counts /= float(count);
+#endif
+    out_radiance = vec4(sum / float(count), option(OPTION_IMAGE_DISTANCE) ? first.image_vox : 1.0);
     out_surface = surface_code(first.position_vox, first.normal, first.material);
 #ifdef TRACE_CLEAR
     if (first.material == MATERIAL_WATER) {

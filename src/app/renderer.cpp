@@ -157,6 +157,10 @@ bool Renderer::Parts::retrace(const Simulation& simulation, const TracePass& pas
     return true;
 }
 
+std::uint32_t Renderer::Parts::new_pixel_samples() const {
+    return settings.history == History::Count ? static_cast<std::uint32_t>(settings.new_pixel_samples) : 1;
+}
+
 const gl::Texture& Renderer::Parts::accumulate_exact() {
     const Sums& previous = targets->sums[1 - current];
     built(accumulate)
@@ -181,6 +185,7 @@ const gl::Texture& Renderer::Parts::reproject_and_filter(const Simulation& simul
                      .previous = surfaces(1 - current, targets->frames[1 - current].history),
                      .cells = simulation.cells(),
                      .brick_changed = simulation.brick_changed(),
+                     .new_pixel_samples = new_pixel_samples(),
                      .previous_version = static_cast<std::uint32_t>(world_version),
                      .rejected = rejected,
                      .traced_before = retraced ? &targets->radiance[1 - current] : nullptr,
@@ -231,8 +236,13 @@ void Renderer::Parts::render_preset(const Simulation& simulation, const Settings
     const bool retraced = retrace(simulation, pass);
     // Asked before the trace is recorded, or the answer would wait for it.
     const bool water_moves = settings.filter == Filter::EdgeAware && water_may_move(simulation);
-    pass.record(trace_inputs(simulation, pass.features()), {.target = views.trace_target(*targets, current)},
-                timers);
+    TracePass::Inputs inputs = trace_inputs(simulation, pass.features());
+    inputs.new_pixel_samples = new_pixel_samples();
+    if (inputs.new_pixel_samples > 1) {
+        inputs.previous_radiance = &targets->frames[1 - current].history;
+        inputs.previous_surface = &targets->frames[1 - current].surface;
+    }
+    pass.record(inputs, {.target = views.trace_target(*targets, current)}, timers);
     shown = settings.history == History::Exact ? &accumulate_exact()
                                                : &reproject_and_filter(simulation, retraced, water_moves);
     shown = &smooth_edges(simulation, *shown);

@@ -127,6 +127,7 @@ struct Renderer::Parts {
     // Since the last frame. May wait for the GPU.
     bool world_changed(const Simulation& simulation) const;
     bool retrace(const Simulation& simulation, const TracePass& pass);
+    std::uint32_t new_pixel_samples() const;
     const gl::Texture& accumulate_exact();
     bool water_may_move(const Simulation& simulation) const;
     const gl::Texture& reproject_and_filter(const Simulation& simulation, bool retraced, bool water_moves);

@@ -36,6 +36,8 @@
         "needs few.")                                                                                        \
     REAL(max_distance_vox, 4096, 1, 10000000, LIGHT, IMAGE, "Longest ray in voxels; beyond it is sky.")      \
     INT(samples_per_pixel, 1, 1, 64, LIGHT, IMAGE, "Paths per pixel in each frame.")                         \
+    INT(new_pixel_samples, 1, 1, 16, LIGHT, NONE,                                                            \
+        "Paths in place of each one, of a pixel that the last frame did not show, where history is count.")  \
     REAL(resolution_scale, 1, 0.25, 1, LIGHT, TARGETS, "Traced pixels per shown pixel, along each side.")    \
     BOOL(guided_upsampling, true, LIGHT, IMAGE,                                                              \
          "Where fewer pixels are traced than shown: spread their light within the surfaces of the shown "    \

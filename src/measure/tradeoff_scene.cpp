@@ -23,6 +23,7 @@ constexpr std::uint64_t reference_frames = std::uint64_t{1} << 20;
 
 // Frames of a turn when times are taken, after one that makes the targets; fewer where they are slow.
 constexpr int frames_of_turn = 2;
+constexpr int frames_until_seen = 5;  // each pixel, where one in 2x2 is traced
 constexpr double slow_frame_ms = 1500;
 
 double ms_of(const std::function<void()>& work) {
@@ -209,19 +210,25 @@ std::vector<PictureError> TradeoffScene::measure_exact(const Recording& recordin
 
 std::vector<double> TradeoffScene::measure_times(std::span<const Configuration> configurations) {
     rest();
+    // New pixels are paid for in flight.
+    const Recording flight = load_recording("flying");
     std::vector<std::vector<double>> ms(configurations.size());
     // The first round compiles.
     for (int round = 0; round <= options_.rounds; ++round)
         for (std::size_t c = 0; c < configurations.size(); ++c) {
             const bool slow = !ms[c].empty() && ms[c].back() > slow_frame_ms;
             if (slow && ms[c].size() > 1) continue;
-            const Settings settings = settings_of(configurations[c]);
+            Settings settings = settings_of(configurations[c]);
             renderer_->reset_history();
-            // A frame that makes the targets and a history; of slow ones in little, for the time is theirs.
-            draw(settings, round == 0 ? options_.error_px : options_.time_px);
+            // Frames that make the targets and a history.
+            const int before = settings.new_pixel_samples > 1 ? frames_until_seen : 1;
+            for (int i = 0; i < (round == 0 ? 1 : before); ++i)
+                draw(settings, round == 0 ? options_.error_px : options_.time_px);
             if (round == 0) continue;
-            for (int i = 0; i < (slow ? 1 : frames_of_turn); ++i)
+            for (int i = 0; i < (slow ? 1 : frames_of_turn); ++i) {
+                place_camera(flight, i + 1, scene_.settings, settings);
                 ms[c].push_back(ms_of([&] { draw(settings, options_.time_px); }));
+            }
         }
     std::vector<double> medians;
     for (std::vector<double>& of_one : ms) {

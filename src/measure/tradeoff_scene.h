@@ -50,7 +50,7 @@ class TradeoffScene {
     // which grow.
     std::vector<PictureError> measure_exact(const Recording& recording, std::span<const int> samples);
 
-    // Milliseconds of a frame at the scene's camera: medians over rounds in which each takes its turn.
+    // Milliseconds of a frame in flight: medians over rounds in which each takes its turn.
     std::vector<double> measure_times(std::span<const Configuration> configurations);
 
   private:

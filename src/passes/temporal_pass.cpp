@@ -43,6 +43,7 @@ void TemporalPass::record(const Inputs& inputs, const Outputs& outputs, gl::Time
         if (inputs.previous_moments != nullptr) inputs.previous_moments->bind(BINDING_FIRST_INPUT + 4);
         program_.set("has_moments", inputs.previous_moments != nullptr ? 1 : 0);
     }
+    program_.set("new_pixel_samples", static_cast<float>(inputs.new_pixel_samples));
     program_.set("previous_version", inputs.previous_version);
     program_.use();
     outputs.history.draw_fullscreen();

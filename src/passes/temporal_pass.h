@@ -23,7 +23,8 @@ class TemporalPass {
         SurfaceBuffers previous;  // radiance: history, alpha: frames kept
         const gl::Texture& cells;
         const gl::Texture& brick_changed;
-        std::uint32_t previous_version;  // of the world, when the previous frame was made
+        std::uint32_t new_pixel_samples = 1;  // as the trace pass had it
+        std::uint32_t previous_version;       // of the world, when the previous frame was made
         const gl::Buffer& rejected;
         // The previous frame's light as traced, and some of its paths in this world; null where none was
         // traced again. Not with blend.

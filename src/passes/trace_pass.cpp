@@ -51,6 +51,11 @@ void TracePass::draw(const Inputs& inputs, const Outputs& outputs) const {
         inputs.brick_changed.bind(BINDING_BRICK_CHANGED);
         program_.set("still_since", inputs.still_since);
     }
+    if (inputs.new_pixel_samples > 1) {
+        inputs.previous_radiance->bind_image(IMAGE_PREVIOUS_RADIANCE, GL_READ_ONLY);
+        inputs.previous_surface->bind_image(IMAGE_PREVIOUS_SURFACE, GL_READ_ONLY);
+    }
+    program_.set("new_pixel_samples", inputs.new_pixel_samples);
     program_.set("stride", inputs.stride);
     program_.use();
     outputs.target.draw_rows(outputs.rows.value_or(gl::Rows{0, outputs.target.size().y}));

@@ -46,6 +46,10 @@ class TracePass {
         const gl::Texture& brick_changed;
         std::uint32_t still_since;  // water in bricks that changed after this version of the world moves
         std::uint32_t stride = 1;   // of the pixels traced, along x and y
+        // In place of each path, of a pixel that the previous frame next to never saw. 1: it is not read.
+        std::uint32_t new_pixel_samples = 1;
+        const gl::Texture* previous_radiance = nullptr;
+        const gl::Texture* previous_surface = nullptr;
     };
     struct Outputs {
         const gl::Framebuffer& target;   // radiance, surface; with count: counts
