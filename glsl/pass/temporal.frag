@@ -54,6 +54,11 @@ const float SAMPLES_KEPT_IN_FLIGHT = 12.0;
 const float ANGLE_OF_A_JUMP = 0.05;
 
 #ifndef HISTORY_BLEND
+// What light that was counts for beside what is, where it was brighter: in a shadow that just fell, old light errs by a
+// multiple of what is left. With 1 the shadow of a block in falling water stayed for a dozen frames; with 0.7 moving
+// water in `cave` has 2 % more error.
+const float WAS_TO_IS = 0.7;
+
 // Frames that may be kept of what the previous frame showed at `ndc`: their bias by the share d of the light that the
 // change of the world took or gave outweighs their noise beyond 1 / d^2. Without `asked` it means nothing.
 float frames_kept_of_light(vec2 ndc, bool asked) {
@@ -73,10 +78,11 @@ float frames_kept_of_light(vec2 ndc, bool asked) {
         float before = luminance(texelFetch(traced_before, pixel, 0).rgb);
         vec2 w = mix(1.0 - f, f, vec2(k & 1, k >> 1));
         difference += w.x * w.y * (now - before) * (now - before);
-        sum += w.x * w.y * max(now, before) * max(now, before);
+        float light = max(now, WAS_TO_IS * before);
+        sum += w.x * w.y * light * light;
     }
-    float share_squared = min(1.0, difference / sum);
-    return is_finite(share_squared) ? 1.0 / max(share_squared, 1e-6) - 0.9 : 0.1;
+    float share_squared = difference / sum;
+    return is_finite(share_squared) ? max(0.1, 1.0 / max(share_squared, 1e-6) - 0.9) : 0.1;
 }
 #endif
 

@@ -152,6 +152,8 @@ bool Renderer::Parts::retrace(const Simulation& simulation, const TracePass& pas
     frame_block.upload(std::span(&block_before, 1));
     TracePass::Inputs inputs = trace_inputs(simulation, pass.features());
     inputs.stride = RETRACE_STRIDE;
+    // What this frame will write over is still the frame before the last, whose new pixels took more paths.
+    ask_for_new_pixels(inputs, current);
     pass.record(inputs, {.target = targets->retrace_target}, timers);
     frame_block.upload(std::span(&block, 1));
     return true;
@@ -159,6 +161,12 @@ bool Renderer::Parts::retrace(const Simulation& simulation, const TracePass& pas
 
 std::uint32_t Renderer::Parts::new_pixel_samples() const {
     return settings.history == History::Count ? static_cast<std::uint32_t>(settings.new_pixel_samples) : 1;
+}
+
+void Renderer::Parts::ask_for_new_pixels(TracePass::Inputs& inputs, int previous) const {
+    inputs.new_pixel_samples = new_pixel_samples();
+    inputs.previous_radiance = &targets->frames[previous].history;
+    inputs.previous_surface = &targets->frames[previous].surface;
 }
 
 const gl::Texture& Renderer::Parts::accumulate_exact() {
@@ -237,11 +245,7 @@ void Renderer::Parts::render_preset(const Simulation& simulation, const Settings
     // Asked before the trace is recorded, or the answer would wait for it.
     const bool water_moves = settings.filter == Filter::EdgeAware && water_may_move(simulation);
     TracePass::Inputs inputs = trace_inputs(simulation, pass.features());
-    inputs.new_pixel_samples = new_pixel_samples();
-    if (inputs.new_pixel_samples > 1) {
-        inputs.previous_radiance = &targets->frames[1 - current].history;
-        inputs.previous_surface = &targets->frames[1 - current].surface;
-    }
+    ask_for_new_pixels(inputs, 1 - current);
     pass.record(inputs, {.target = views.trace_target(*targets, current)}, timers);
     shown = settings.history == History::Exact ? &accumulate_exact()
                                                : &reproject_and_filter(simulation, retraced, water_moves);

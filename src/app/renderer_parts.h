@@ -128,6 +128,8 @@ struct Renderer::Parts {
     bool world_changed(const Simulation& simulation) const;
     bool retrace(const Simulation& simulation, const TracePass& pass);
     std::uint32_t new_pixel_samples() const;
+    // Of the picture that comes after the one in the set `previous`.
+    void ask_for_new_pixels(TracePass::Inputs& inputs, int previous) const;
     const gl::Texture& accumulate_exact();
     bool water_may_move(const Simulation& simulation) const;
     const gl::Texture& reproject_and_filter(const Simulation& simulation, bool retraced, bool water_moves);
