@@ -30,15 +30,17 @@ uint rng_next() {
     return rng_state;
 }
 
+const uint RNG_ORDERS = 15u;  // bits of a shift that say in which order its number takes the steps
+
 // Uniform in [0,1): the top 24 bits, so that 1.0 is never reached by rounding. In a sequence the n-th path adds n steps
 // to a shift of its own for every number, within sixteen in an order of its own too: numbers of one path then depend on
 // each other no more than independent ones.
-const uint RNG_ORDERS = 15u;
 float rng_in_sequence(uint shift, uint step_size) {
     uint order = shift & RNG_ORDERS;
     uint value = shift + ((rng_place ^ order) - order) * step_size;
     return float(value >> 8) * (1.0 / 16777216.0);
 }
+
 // Steps in 2^-32, for pairs in both. Those of the golden ratio and of Roberts' R2 (2018) spread the paths of consecutive
 // frames as well, but every fourth of them, which a shown pixel gets where one in 2x2 is traced, no better than chance or
 // worse; these were searched for both, and for every ninth. `balanced` over all recordings .0456 -> .0429.
