@@ -4,7 +4,7 @@
 #include "lib/surface.glsl"
 
 // With so many samples a pixel is new no more.
-const float SAMPLES_OF_NEW = 2.0;
+const float SAMPLES_OF_NEW = 4.0;
 
 bool is_new_pixel(uint code, vec3 point_vox) {
     if (code == SURFACE_CODE_SKY) return false;

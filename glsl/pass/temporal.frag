@@ -27,7 +27,7 @@ uniform uint previous_version;  // of the world, when the previous frame was mad
 #ifndef HISTORY_BLEND
 layout(binding = 9) uniform sampler2D retraced;         // the previous frame's paths in this world, some of them
 layout(binding = 10) uniform sampler2D traced_before;   // the previous frame's light as traced
-uniform bool is_retraced;
+uniform int retrace_stride;  // of one traced pixel in stride x stride; 0: of none
 #endif
 
 layout(location = 0) out vec4 out_radiance;  // rgb; a: frames kept, this one included
@@ -54,33 +54,32 @@ const float SAMPLES_KEPT_IN_FLIGHT = 12.0;
 const float ANGLE_OF_A_JUMP = 0.05;
 
 #ifndef HISTORY_BLEND
-// What light that was counts for beside what is, where it was brighter: in a shadow that just fell, old light errs by a
-// multiple of what is left. With 1 the shadow of a block in falling water stayed for a dozen frames, with 0.7 still
-// ten; moving water in `cave` has 1.6 % more error with 0.7, 2.5 % with 0.5.
-const float WAS_TO_IS = 0.4;
-
 // Frames that may be kept of what the previous frame showed at `ndc`: their bias by the share d of the light that the
 // change of the world took or gave outweighs their noise beyond 1 / d^2. Without `asked` it means nothing.
 float frames_kept_of_light(vec2 ndc, bool asked) {
-    ivec2 last = textureSize(retraced, 0) - 1;
     ivec2 last_traced = textureSize(traced_before, 0) - 1;
-    vec2 between = (ndc * 0.5 + 0.5) * vec2(last_traced + 1) / float(RETRACE_STRIDE) - 0.5;
-    ivec2 base = ivec2(floor(between));
-    vec2 f = between - vec2(base);
+    ivec2 last = textureSize(retraced, 0) - 1;
+    float stride = float(retrace_stride);
+    const float reach = float(RETRACE_REACH_PX);
+    float center = float(retrace_stride / 2) + 0.5;  // of a cell's pixel, in the first cell
+    vec2 place = (ndc * 0.5 + 0.5) * vec2(last_traced + 1) - center;
+    ivec2 first = ivec2(floor((place - reach) / stride)) + 1;
     float difference = 0.0;
     float sum = 1e-20;
     // Where no lane asks, llvmpipe pays for one round.
-    int rounds = asked ? 4 : 0;
-    for (int k = 0; k < rounds; ++k) {
-        ivec2 cell = clamp(base + ivec2(k & 1, k >> 1), ivec2(0), last);
-        ivec2 pixel = min(cell * int(RETRACE_STRIDE) + int(RETRACE_STRIDE) / 2, last_traced);
-        float now = luminance(texelFetch(retraced, cell, 0).rgb);
-        float before = luminance(texelFetch(traced_before, pixel, 0).rgb);
-        vec2 w = mix(1.0 - f, f, vec2(k & 1, k >> 1));
-        difference += w.x * w.y * (now - before) * (now - before);
-        float light = max(now, WAS_TO_IS * before);
-        sum += w.x * w.y * light * light;
-    }
+    int side = asked ? int(2.0 * reach / stride) : 0;
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) {
+            ivec2 cell = first + ivec2(x, y);
+            vec2 w = 1.0 - min(abs(vec2(cell) * stride - place) / reach, 1.0);
+            cell = clamp(cell, ivec2(0), last);
+            ivec2 pixel = min(cell * retrace_stride + retrace_stride / 2, last_traced);
+            float now = luminance(texelFetch(retraced, cell, 0).rgb);
+            float before = luminance(texelFetch(traced_before, pixel, 0).rgb);
+            difference += w.x * w.y * (now - before) * (now - before);
+            float light = max(now, before);
+            sum += w.x * w.y * light * light;
+        }
     float share_squared = difference / sum;
     return is_finite(share_squared) ? max(0.1, 1.0 / max(share_squared, 1e-6) - 0.9) : 0.1;
 }
@@ -246,7 +245,7 @@ void main() {
         float turned = length(cross(way, to_surface)) / max(dot(to_surface + way, to_surface), 1e-6);
         if (resampled) count = min(count, SAMPLES_KEPT_IN_FLIGHT / max(1.0, turned / ANGLE_OF_A_JUMP));
 #ifndef HISTORY_BLEND
-        bool asked = is_retraced && !is_moving(here);
+        bool asked = retrace_stride > 0 && !is_moving(here);
         float kept_of_light = frames_kept_of_light(ndc, asked);
         if (asked) count = min(count, SAMPLES_A_FRAME * kept_of_light);
 #endif

@@ -28,6 +28,7 @@ void main() {
     uvec2 pixel = min(uvec2(gl_FragCoord.xy) * stride + stride / 2u, uvec2(frame.size_px.xy) - 1u);
     vec3 sum = vec3(0.0);
     FirstSurface first;
+    uint code = SURFACE_CODE_SKY;
 #ifdef TRACE_COUNT
     out_counts = vec2(0.0);
 #endif
@@ -49,9 +50,9 @@ void main() {
         vec3 radiance = trace_path(frame.camera_position_vox.xyz, normalize(camera_ray(at)), surface);
         if (i == 0u) {
             first = surface;
+            code = surface_code(first.position_vox, first.normal, first.material);
             bool more = new_pixel_samples > 1u;
-            if (more && is_new_pixel(surface_code(first.position_vox, first.normal, first.material), first.position_vox))
-                count *= new_pixel_samples;
+            if (more && is_new_pixel(code, first.position_vox)) count *= new_pixel_samples;
         }
 #ifdef TRACE_COUNT
         out_counts += vec2(path_bounces, steps_walked);
@@ -66,7 +67,7 @@ void main() {
     out_counts /= float(count);
 #endif
     out_radiance = vec4(sum / float(count), option(OPTION_IMAGE_DISTANCE) ? first.image_vox : 1.0);
-    out_surface = surface_code(first.position_vox, first.normal, first.material);
+    out_surface = code;
 #ifdef TRACE_CLEAR
     if (first.material == MATERIAL_WATER) {
         vec3 within = clamp(first.position_vox - 0.5 * first.normal, vec3(0.0), vec3(frame.world_size_vox.xyz - 1));

@@ -29,6 +29,20 @@ struct Sums {
           correction({.label = "correction", .format = GL_RGBA32F, .size = {size, 0}}) {}
 };
 
+// Paths of the last frame, traced again: of one traced pixel in stride^2.
+struct Retraced {
+    std::uint32_t stride = 0;
+    gl::Texture paths;
+    gl::Framebuffer target;
+
+    Retraced(glm::ivec2 traced_px, std::uint32_t stride_px) : stride(stride_px) {
+        const auto step = static_cast<int>(stride);
+        paths = gl::Texture(
+            {.label = "retraced", .format = GL_RGBA32F, .size = {(traced_px + step - 1) / step, 0}});
+        target = gl::Framebuffer("retrace", {&paths});
+    }
+};
+
 // Everything that depends on the picture's size. Upsampled: fewer pixels are traced than history keeps.
 struct RenderTargets {
     glm::ivec2 traced_px, shown_px;
@@ -37,11 +51,11 @@ struct RenderTargets {
     gl::Texture filtered[2], picture;
     gl::Texture traced_surface;  // upsampled
     gl::Texture antialiased;     // where asked for
-    gl::Texture retraced;        // of one traced pixel in RETRACE_STRIDE^2
+    Retraced retraced, retraced_of_edits;
     FrameTargets frames[2];
     Sums sums[2];
     gl::Framebuffer trace_target[2], history_target[2], filter_target[2], sums_target[2], picture_target,
-        retrace_target, antialias_target;
+        antialias_target;
 
     RenderTargets(glm::ivec2 traced, glm::ivec2 shown, bool exact_mode, bool upsampled_mode)
         : traced_px(traced),
@@ -49,6 +63,8 @@ struct RenderTargets {
           exact(exact_mode),
           upsampled(upsampled_mode),
           picture({.label = "picture", .format = GL_RGBA8, .size = {shown, 0}}),
+          retraced(traced, RETRACE_STRIDE),
+          retraced_of_edits(traced, RETRACE_STRIDE_OF_EDITS),
           picture_target("picture", {&picture}) {
         const glm::ivec2 kept = kept_px();
         for (gl::Texture& texture : filtered)
@@ -66,10 +82,6 @@ struct RenderTargets {
             filter_target[i] = gl::Framebuffer("filter", {&filtered[i]});
             if (exact) sums[i] = Sums(traced);
         }
-        const int stride = static_cast<int>(RETRACE_STRIDE);
-        retraced = gl::Texture(
-            {.label = "retraced", .format = GL_RGBA32F, .size = {(traced + stride - 1) / stride, 0}});
-        retrace_target = gl::Framebuffer("retrace", {&retraced});
         if (!exact) return;
         for (int i = 0; i < 2; ++i)
             sums_target[i] = gl::Framebuffer("sums", {&sums[i].sum, &sums[i].correction, &filtered[i]});

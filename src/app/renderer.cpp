@@ -144,19 +144,21 @@ bool Renderer::Parts::water_may_move(const Simulation& simulation) const {
            is_later(simulation.last_change(), versions.front());
 }
 
-// Some of the last frame's paths, with its eye and its random numbers, in the world as it is now. False where
+// Some of the last frame's paths, with its eye and its random numbers, in the world as it is now. Null where
 // the world has not changed or nothing asks for it.
-bool Renderer::Parts::retrace(const Simulation& simulation, const TracePass& pass) {
-    if (settings.history != History::Count || !settings.retrace_changes || !has_history) return false;
-    if (!world_changed(simulation)) return false;
+const Retraced* Renderer::Parts::retrace(const Simulation& simulation, const TracePass& pass) {
+    if (settings.history != History::Count || !settings.retrace_changes || !has_history) return nullptr;
+    if (!world_changed(simulation)) return nullptr;
+    const bool edited = simulation.last_edit() > world_version;
+    const Retraced& retraced = edited ? targets->retraced_of_edits : targets->retraced;
     frame_block.upload(std::span(&block_before, 1));
     TracePass::Inputs inputs = trace_inputs(simulation, pass.features());
-    inputs.stride = RETRACE_STRIDE;
+    inputs.stride = retraced.stride;
     // What this frame will write over is still the frame before the last, whose new pixels took more paths.
     ask_for_new_pixels(inputs, current);
-    pass.record(inputs, {.target = targets->retrace_target}, timers);
+    pass.record(inputs, {.target = retraced.target}, timers);
     frame_block.upload(std::span(&block, 1));
-    return true;
+    return &retraced;
 }
 
 std::uint32_t Renderer::Parts::new_pixel_samples() const {
@@ -181,8 +183,8 @@ const gl::Texture& Renderer::Parts::accumulate_exact() {
     return targets->filtered[current];
 }
 
-const gl::Texture& Renderer::Parts::reproject_and_filter(const Simulation& simulation, bool retraced,
-                                                         bool water_moves) {
+const gl::Texture& Renderer::Parts::reproject_and_filter(const Simulation& simulation,
+                                                         const Retraced* retraced, bool water_moves) {
     const gl::Texture* radiance = &targets->radiance[current];
     if (settings.history != History::None) {
         const bool blend = settings.history == History::Blend;
@@ -196,8 +198,9 @@ const gl::Texture& Renderer::Parts::reproject_and_filter(const Simulation& simul
                      .new_pixel_samples = new_pixel_samples(),
                      .previous_version = static_cast<std::uint32_t>(world_version),
                      .rejected = rejected,
-                     .traced_before = retraced ? &targets->radiance[1 - current] : nullptr,
-                     .retraced = retraced ? &targets->retraced : nullptr,
+                     .traced_before = retraced != nullptr ? &targets->radiance[1 - current] : nullptr,
+                     .retraced = retraced != nullptr ? &retraced->paths : nullptr,
+                     .retrace_stride = retraced != nullptr ? retraced->stride : 1,
                      .previous_moments = views.previous_moments(current)},
                     {.history = views.history_target(*targets, current)}, timers);
         radiance = &targets->frames[current].history;
@@ -241,7 +244,7 @@ void Renderer::Parts::render_preset(const Simulation& simulation, const Settings
     const TracePass& pass = choose_program(simulation);
     if (pass.features().emitters) update_emitters(simulation);
     views.prepare(settings, *targets, has_history);
-    const bool retraced = retrace(simulation, pass);
+    const Retraced* retraced = retrace(simulation, pass);
     // Asked before the trace is recorded, or the answer would wait for it.
     const bool water_moves = settings.filter == Filter::EdgeAware && water_may_move(simulation);
     TracePass::Inputs inputs = trace_inputs(simulation, pass.features());

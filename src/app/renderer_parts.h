@@ -126,13 +126,14 @@ struct Renderer::Parts {
     TracePass::Inputs trace_inputs(const Simulation& simulation, const TraceFeatures& features);
     // Since the last frame. May wait for the GPU.
     bool world_changed(const Simulation& simulation) const;
-    bool retrace(const Simulation& simulation, const TracePass& pass);
+    const Retraced* retrace(const Simulation& simulation, const TracePass& pass);
     std::uint32_t new_pixel_samples() const;
     // Of the picture that comes after the one in the set `previous`.
     void ask_for_new_pixels(TracePass::Inputs& inputs, int previous) const;
     const gl::Texture& accumulate_exact();
     bool water_may_move(const Simulation& simulation) const;
-    const gl::Texture& reproject_and_filter(const Simulation& simulation, bool retraced, bool water_moves);
+    const gl::Texture& reproject_and_filter(const Simulation& simulation, const Retraced* retraced,
+                                            bool water_moves);
     // Edges smoothed, where it is asked for: `radiance` is of the pixels whose surfaces the last frame keeps.
     const gl::Texture& smooth_edges(const Simulation& simulation, const gl::Texture& radiance);
     void render_preset(const Simulation& simulation, const Settings& now, glm::ivec2 size_px);

@@ -81,6 +81,7 @@ struct Simulation::Parts {
     std::uint64_t step = 0;  // of the water: Settings::water_substeps in a tick
     bool always_awake = false;
     std::uint64_t version = 0;
+    std::uint64_t last_edit = 0;  // its version
     EditTotals edit_totals;
     Census census;
     std::uint32_t recent_active_bricks = 0;
@@ -89,7 +90,7 @@ struct Simulation::Parts {
 };
 
 void Simulation::Parts::load(const Cells& from) {
-    ++version;
+    last_edit = ++version;
     cells.upload(std::span<const std::uint8_t>(from.bytes()), byte_layout, byte_type);
     const std::uint32_t all = stamp();
     glClearTexImage(brick_changed.name(), 0, GL_RED_INTEGER, GL_UNSIGNED_INT, &all);
@@ -122,6 +123,7 @@ void Simulation::Parts::mark_bricks(const Box& bounds, const std::vector<std::ui
                 mark = 1;
                 touched.push_back(static_cast<std::uint32_t>(brick.x + all.x * (brick.y + all.y * brick.z)));
             }
+    last_edit = version;
     water.edited({.bricks = touched, .before = before, .after = after, .step = step32(), .version = stamp()},
                  brick_changed);
 }
@@ -310,6 +312,9 @@ std::uint32_t Simulation::last_change() const {
 
 std::uint64_t Simulation::version() const {
     return parts_->version;
+}
+std::uint64_t Simulation::last_edit() const {
+    return parts_->last_edit;
 }
 const gl::Texture& Simulation::cells() const {
     return parts_->cells;

@@ -63,6 +63,8 @@ class Simulation {
     std::uint32_t active_bricks() const;
     // Counts every step, edit or load that may have changed a cell.
     std::uint64_t version() const;
+    // The version() that the last edit or load made.
+    std::uint64_t last_edit() const;
     // Low 32 bits of the version() at which any cell last changed: steps of a world at rest leave it. Waits
     // for the GPU.
     std::uint32_t last_change() const;

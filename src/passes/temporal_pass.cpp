@@ -37,7 +37,8 @@ void TemporalPass::record(const Inputs& inputs, const Outputs& outputs, gl::Time
             inputs.retraced->bind(BINDING_FIRST_INPUT + 5);
             inputs.traced_before->bind(BINDING_FIRST_INPUT + 6);
         }
-        program_.set("is_retraced", inputs.retraced != nullptr ? 1 : 0);
+        program_.set("retrace_stride",
+                     inputs.retraced != nullptr ? static_cast<int>(inputs.retrace_stride) : 0);
     }
     if (moments_) {
         if (inputs.previous_moments != nullptr) inputs.previous_moments->bind(BINDING_FIRST_INPUT + 4);

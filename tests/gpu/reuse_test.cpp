@@ -1,7 +1,6 @@
 // What earlier frames and neighbours are worth: fewer traced pixels than shown ones, changes of light that
 // the cells of what is seen do not tell of, pictures at rest.
 #include <map>
-#include <numeric>
 #include <vector>
 
 #include "app/replay.h"
@@ -21,33 +20,6 @@ double largest_difference(const Picture& a, const Picture& b) {
     for (std::size_t i = 0; i < a.image.pixels.size(); ++i)
         most = std::max(most, std::abs(double{a.image.pixels[i]} - b.image.pixels[i]));
     return most;
-}
-
-// mean((x - ref)^2 / (ref^2 + 0.01 mean(ref)^2)) over the pixels that are `counted`; empty: all.
-double relative_error(const Picture& picture, const Picture& reference,
-                      const std::vector<char>& counted = {}) {
-    double mean = 0;
-    for (const float p : reference.image.pixels) mean += p;
-    mean /= static_cast<double>(reference.image.pixels.size());
-    double sum = 0, count = 0;
-    for (std::size_t i = 0; i < picture.image.pixels.size(); ++i) {
-        if (!counted.empty() && counted[i / 3] == 0) continue;
-        const double expected = reference.image.pixels[i];
-        sum += std::pow(picture.image.pixels[i] - expected, 2) / (expected * expected + 0.01 * mean * mean);
-        ++count;
-    }
-    return sum / count;
-}
-
-void put(Studio& studio, glm::ivec3 center_vox, int radius_vox, std::uint8_t material) {
-    EditHistory edits;
-    edits.begin_stroke();
-    studio.simulation.apply({.shape = BrushShape::Cube,
-                             .center_vox = center_vox,
-                             .radius_vox = radius_vox,
-                             .material = material,
-                             .overwrite = true},
-                            edits);
 }
 
 TEST_F(ReuseTest, AStillPictureOfFewerTracedPixelsBecomesThatOfAll) {
@@ -293,120 +265,6 @@ TEST_F(ReuseTest, TheFilterOfMovingWaterIsTheSameForAllElse) {
         EXPECT_EQ(still.shoot({32, 32}).image.pixels, moving.shoot({32, 32}).image.pixels) << frame;
     }
     EXPECT_GT(moving.simulation.last_change(), still.simulation.last_change());
-}
-
-// The bar for ghosts: where the picture changed, the error is soon within 1.5 times of what it is in the long
-// run, or of what a picture begun anew has, which has noise as all young pictures do but no ghost. Prints
-// after how many frames, for each. Errors are means over takes of the same frames that differ in their random
-// numbers: of one take, of a few hundred pixels, chance decides.
-class Ghosts : public ReuseTest {
-  protected:
-    // Of much smaller ones the block's shadow is a few pixels wide, fewer than retracing resolves, and lags.
-    static constexpr glm::ivec2 size{240, 135};
-    static constexpr int frames_of_steady = 50, frames_of_mean = 10;  // the last of them
-    static constexpr int frames_allowed = 10, frames_of_noise_allowed = 25;
-    static constexpr int takes_of_a_frame = 2;
-
-    Studio studio{balanced("waterfall")};
-    using Takes = std::vector<std::unique_ptr<Renderer>>;
-    Takes takes, anew;
-
-    Ghosts() {
-        for (int i = 0; i < takes_of_a_frame; ++i)
-            for (Takes* some : {&takes, &anew}) {
-                some->push_back(std::make_unique<Renderer>(studio.scene, studio.timers));
-                some->back()->set_frame_index(std::uint64_t{1024} * i);
-            }
-    }
-    void shoot(const Takes& some) {
-        for (const auto& take : some) take->render(studio.simulation, studio.settings(), size);
-    }
-    double error_of_next(const Takes& some, const Picture& expected, const std::vector<char>& changed) {
-        shoot(some);
-        double sum = 0;
-        for (const auto& take : some) sum += relative_error({take->read_radiance(), 0}, expected, changed);
-        return sum / takes_of_a_frame;
-    }
-
-    static Scene balanced(const char* name) {
-        Settings settings;
-        apply_quality(settings, Quality::Balanced);
-        settings.refine_at_rest = false;
-        return load_scene(name, settings);
-    }
-    Picture truth() {
-        Settings exact = studio.settings();
-        apply_quality(exact, Quality::Exact);
-        // As the preset draws them: what differs for good says nothing of ghosts.
-        exact.caustics = false;
-        exact.smooth_water = exact.straight_sunlight = true;
-        exact.firefly_limit = studio.settings().firefly_limit;
-        Renderer reference(studio.scene, studio.timers);
-        for (int frame = 0; frame < 100; ++frame) reference.render(studio.simulation, exact, size);
-        return {reference.read_radiance(), 0};
-    }
-    // Pixels of which a channel differs by more than a tenth and more than their noise.
-    static std::vector<char> differing(const Picture& a, const Picture& b) {
-        std::vector<char> differs(a.image.pixels.size() / 3, 0);
-        for (std::size_t i = 0; i < a.image.pixels.size(); ++i) {
-            const float larger = std::max(a.image.pixels[i], b.image.pixels[i]);
-            if (std::abs(a.image.pixels[i] - b.image.pixels[i]) > 0.1f * larger + 0.05f) differs[i / 3] = 1;
-        }
-        return differs;
-    }
-    void expect_no_ghost_of(const char* what, const Picture& before) {
-        const Picture expected = truth();
-        const std::vector<char> changed = differing(before, expected);
-        const auto pixels = std::ranges::count(changed, 1);
-        ASSERT_GT(pixels, 40) << what;
-        const double ghost = relative_error(before, expected, changed);
-        std::vector<double> errors(frames_of_steady);
-        for (double& error : errors) error = error_of_next(takes, expected, changed);
-        for (const auto& take : anew) take->reset_history();
-        std::vector<double> errors_anew(frames_allowed);
-        for (double& error : errors_anew) error = error_of_next(anew, expected, changed);
-        const double steady =
-            std::accumulate(errors.end() - frames_of_mean, errors.end(), 0.0) / frames_of_mean;
-        const double bar = 1.5 * steady;
-        const auto frames =
-            std::ranges::find_if(errors, [&](double e) { return e <= bar; }) - errors.begin() + 1;
-        int frames_of_ghost = 1;
-        while (frames_of_ghost <= frames_allowed &&
-               errors[frames_of_ghost - 1] > std::max(bar, 1.5 * errors_anew[frames_of_ghost - 1]))
-            ++frames_of_ghost;
-        fmt::print(
-            "{}: of {} pixels that changed, error {:.3f} as before, {:.3f} in the first frame, {:.3f} in the "
-            "long run, within 1.5 times from frame {}, of a picture begun anew from frame {}\n",
-            what, pixels, ghost, errors.front(), steady, frames, frames_of_ghost);
-        EXPECT_LE(frames_of_ghost, frames_allowed) << what;
-        EXPECT_LE(frames, frames_of_noise_allowed) << what;
-        // Else a ghost that stays would pass.
-        EXPECT_GT(ghost, 3 * steady) << what;
-    }
-};
-
-TEST_F(Ghosts, AreGoneSoonAfterAStopAnEditAndAJump) {
-    const auto flow = [&](int frames) {
-        for (int frame = 0; frame < frames; ++frame) {
-            studio.simulation.step(1, studio.settings());
-            shoot(takes);
-        }
-    };
-    studio.simulation.step(40, studio.settings());
-    flow(17);
-    Picture before = truth();
-    flow(3);
-    expect_no_ghost_of("a waterfall that stops", before);
-    before = truth();
-    put(studio, {48, 30, 60}, 4, MATERIAL_STONE);
-    expect_no_ghost_of("a block put up", before);
-    before = truth();
-    put(studio, {48, 30, 60}, 4, MATERIAL_AIR);
-    expect_no_ghost_of("a block taken away", before);
-    before = truth();
-    studio.settings().camera_position_vox += glm::vec3(20, 5, -15);
-    studio.settings().camera_yaw_deg -= 25;
-    expect_no_ghost_of("a jump of the eye", before);
 }
 
 }  // namespace

@@ -1,8 +1,10 @@
 // Scenes for tests of what comes after the trace pass, and a renderer of one's own for each.
 #pragma once
 #include <algorithm>
+#include <vector>
 
 #include "picture.h"
+#include "world/edits.h"
 
 namespace tarn {
 
@@ -30,6 +32,33 @@ struct Studio {
         return {renderer.read_radiance(), renderer.rejected_samples()};
     }
 };
+
+// mean((x - ref)^2 / (ref^2 + 0.01 mean(ref)^2)) over the pixels that are `counted`; empty: all.
+inline double relative_error(const Picture& picture, const Picture& reference,
+                             const std::vector<char>& counted = {}) {
+    double mean = 0;
+    for (const float p : reference.image.pixels) mean += p;
+    mean /= static_cast<double>(reference.image.pixels.size());
+    double sum = 0, count = 0;
+    for (std::size_t i = 0; i < picture.image.pixels.size(); ++i) {
+        if (!counted.empty() && counted[i / 3] == 0) continue;
+        const double expected = reference.image.pixels[i];
+        sum += std::pow(picture.image.pixels[i] - expected, 2) / (expected * expected + 0.01 * mean * mean);
+        ++count;
+    }
+    return sum / count;
+}
+
+inline void put(Studio& studio, glm::ivec3 center_vox, int radius_vox, std::uint8_t material) {
+    EditHistory edits;
+    edits.begin_stroke();
+    studio.simulation.apply({.shape = BrushShape::Cube,
+                             .center_vox = center_vox,
+                             .radius_vox = radius_vox,
+                             .material = material,
+                             .overwrite = true},
+                            edits);
+}
 
 inline Scene plain_scene(const std::string& text) {
     Scene scene = scene_from(text);
