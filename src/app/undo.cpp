@@ -9,12 +9,12 @@ namespace tarn {
 namespace {
 
 // How far what flowed on is looked for: sideways and up, down.
-constexpr glm::ivec3 reach_vox{64, 8, 64};
+constexpr glm::ivec3 flow_reach_vox{64, 8, 64};
 constexpr int reach_down_vox = 128;
 // Cells looked at, at most: a read-back of 32 MiB.
 constexpr std::size_t cells_max = std::size_t{1} << 25;
 
-bool pours(std::uint8_t byte) {
+bool flows(std::uint8_t byte) {
     return is_water(byte) || byte == MATERIAL_SAND;
 }
 
@@ -36,10 +36,11 @@ bool undo_stroke(Simulation& simulation, EditHistory& history) {
     const auto changes = history.undo();
     if (!changes) return false;
     Box box = box_of(*changes);
-    box.min_vox = glm::max(box.min_vox - glm::ivec3(reach_vox.x, reach_down_vox, reach_vox.z), glm::ivec3(0));
-    box.max_vox = glm::min(box.max_vox + reach_vox, simulation.size_vox());
+    box.min_vox =
+        glm::max(box.min_vox - glm::ivec3(flow_reach_vox.x, reach_down_vox, flow_reach_vox.z), glm::ivec3(0));
+    box.max_vox = glm::min(box.max_vox + flow_reach_vox, simulation.size_vox());
     const bool poured =
-        std::any_of(changes->begin(), changes->end(), [](const CellChange& c) { return pours(c.before); });
+        std::any_of(changes->begin(), changes->end(), [](const CellChange& c) { return flows(c.before); });
     if (!poured || box.volume() > cells_max) {
         simulation.write(*changes);
         return true;

@@ -47,6 +47,10 @@ std::vector<std::string> list_assets(const std::string& folder) {
     return paths;
 }
 
+std::string asset_name(const std::string& path) {
+    return std::filesystem::path(path).stem().string();
+}
+
 std::int64_t asset_stamp(const std::string& path) {
     const auto file = asset_on_disk(path);
     if (!file) return 0;

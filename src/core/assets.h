@@ -24,6 +24,9 @@ std::string read_asset(const std::string& path);
 // Paths of the embedded assets below `folder`, sorted.
 std::vector<std::string> list_assets(const std::string& folder);
 
+// As scenes and recordings are called: "lake" of "assets/scenes/lake.json".
+std::string asset_name(const std::string& path);
+
 // When the file behind an asset was written: above 0, and grows with time; 0 if embedded or missing.
 std::int64_t asset_stamp(const std::string& path);
 

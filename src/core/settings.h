@@ -24,6 +24,26 @@ enum class ViewKind { Picture, Albedo, Normal, Depth, Material, Bounces, Steps, 
 // Names of an enum's values in order, as the command line and JSON spell them.
 template <typename Enum>
 std::span<const char* const> choice_names();
+template <>
+std::span<const char* const> choice_names<WaterTier>();
+template <>
+std::span<const char* const> choice_names<Quality>();
+template <>
+std::span<const char* const> choice_names<Traversal>();
+template <>
+std::span<const char* const> choice_names<LightSampling>();
+template <>
+std::span<const char* const> choice_names<DiffuseSampling>();
+template <>
+std::span<const char* const> choice_names<History>();
+template <>
+std::span<const char* const> choice_names<Filter>();
+template <>
+std::span<const char* const> choice_names<SkyModel>();
+template <>
+std::span<const char* const> choice_names<ToneMap>();
+template <>
+std::span<const char* const> choice_names<ViewKind>();
 
 enum class SettingGroup { TRADE, SIMULATION, LIGHT, IMAGE_FILTER, CAMERA, WATER, SKY, DISPLAY };
 enum class SettingEffect { NONE, IMAGE, TARGETS };

@@ -9,7 +9,7 @@ namespace tarn {
 
 namespace {
 
-constexpr int columns = 3;
+constexpr int plots_across = 3;
 
 glm::dvec2 point_of(const Measured& m) {
     return {m.time, m.error > 0 ? m.error : std::nan("")};
@@ -99,7 +99,7 @@ Drawing draw_scene(std::span<const TradeoffRow> rows, const std::string& scene, 
         if (floor_factor * row.floor > panels.back().y.low)
             panels.back().levels.push_back({floor_factor * row.floor, "3 times the reference's own error"});
     }
-    return draw_plot(panels, columns, fmt::format("{}: error against time; {}", scene, about));
+    return draw_plot(panels, plots_across, fmt::format("{}: error against time; {}", scene, about));
 }
 
 Drawing draw_over_all(std::span<const TradeoffRow> rows, const std::string& about) {

@@ -10,9 +10,7 @@ namespace tarn {
 
 namespace {
 
-constexpr int columns = 3;
-// A quantum is 1/16 of a voxel; means over an arm or a pool resolve less.
-constexpr double lowest_error_vox = 0.01;
+constexpr int panel_columns = 3;
 
 PlotPanel& panel_of(std::vector<PlotPanel>& panels, const WaterRun& run) {
     const auto found = std::find_if(panels.begin(), panels.end(),
@@ -36,7 +34,7 @@ std::string water_plot(std::span<const WaterRun> runs) {
         if (std::any_of(panel.series.begin(), panel.series.end(), drawn)) continue;
         panel.series.push_back({.name = run.tier, .points = run.level_error});
     }
-    return svg_plot(panels, columns,
+    return svg_plot(panels, panel_columns,
                     "How far water is from level, against ticks; a line per tier, the first seed of each");
 }
 

@@ -11,6 +11,9 @@
 
 namespace tarn {
 
+// Where plots of level errors begin: a quantum is 1/16 of a voxel; means over an arm or a pool resolve less.
+constexpr double lowest_error_vox = 0.01;
+
 struct WaterRun {
     std::string tier, scenario;
     std::uint32_t seed = 1;

@@ -16,7 +16,6 @@ namespace {
 constexpr std::uint32_t seed = 1;
 constexpr int rounds = 5;
 constexpr int ticks_of_turn = 8;
-constexpr double lowest_error_vox = 0.01;
 
 struct Rule {
     const char* name;

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "passes/bricks.h"
+#include "passes/work_list.h"
 #include "shared/bindings.h"
 #include "shared/water.h"
 
@@ -13,16 +14,12 @@ namespace tarn {
 
 namespace {
 
-constexpr std::size_t word = sizeof(std::uint32_t);
-constexpr std::size_t header_words = 4;        // WorkHeader of glsl/lib/work_list.glsl
-constexpr std::size_t groups_per_row = 32768;  // WORK_GROUPS_PER_ROW there
 struct GridUniforms {
     const char *block, *offset, *count;
 };
 constexpr std::array<GridUniforms, ActivityPass::grids_max> grid_uniforms{
     {{"block_vox[0]", "offset_vox[0]", "count_blocks[0]"},
      {"block_vox[1]", "offset_vox[1]", "count_blocks[1]"}}};
-constexpr std::array<std::uint32_t, header_words> empty_list{0, 0, 1, 0};
 
 std::size_t volume(glm::ivec3 size) {
     return std::size_t{1} * size.x * size.y * size.z;
@@ -38,8 +35,8 @@ glm::ivec3 words_of(glm::ivec3 size_bricks) {
 }
 
 gl::Buffer work_list(const char* label, std::size_t items) {
-    gl::Buffer list(label, (header_words + items) * word);
-    list.upload(empty_list);
+    gl::Buffer list(label, (work_header_words + items) * word_bytes);
+    list.upload(empty_work_list);
     return list;
 }
 
@@ -66,7 +63,7 @@ ActivityPass::ActivityPass(glm::ivec3 size_vox)
       all_blocks_program_(
           {.label = "all blocks", .compute = "pass/activity_blocks.comp", .defines = {{"ALL", "1"}}}),
       touch_({.label = "touch", .compute = "pass/activity_touch.comp"}),
-      changed_tick_("changed tick", volume(size_bricks_) * word),
+      changed_tick_("changed tick", volume(size_bricks_) * word_bytes),
       lists_{work_list("active bricks a", volume(size_bricks_)),
              work_list("active bricks b", volume(size_bricks_))},
       changes_(size_bricks_),
@@ -77,24 +74,24 @@ void ActivityPass::wake_all(std::uint32_t tick) {
     changed_tick_.upload(std::vector<std::uint32_t>(bricks, tick - 1));
     const auto count = static_cast<std::uint32_t>(bricks);
     const std::uint32_t groups = (count + ACTIVE_PER_GROUP - 1) / ACTIVE_PER_GROUP;
-    constexpr auto row = static_cast<std::uint32_t>(groups_per_row);
+    constexpr auto row = static_cast<std::uint32_t>(work_groups_per_row);
     std::vector<std::uint32_t> list{std::min(groups, row), (groups + row - 1) / row, 1, count};
-    list.resize(header_words + bricks);
-    std::iota(list.begin() + header_words, list.end(), 0u);
+    list.resize(work_header_words + bricks);
+    std::iota(list.begin() + work_header_words, list.end(), 0u);
     lists_[next_].upload(list);
     woken_tick_ = tick;
 }
 
 void ActivityPass::sleep_all(std::uint32_t tick) {
     changed_tick_.upload(std::vector<std::uint32_t>(volume(size_bricks_), tick - SLEEP_TICKS - 2));
-    lists_[next_].upload(empty_list);
+    lists_[next_].upload(empty_work_list);
     woken_tick_.reset();
 }
 
 void ActivityPass::touch(const std::vector<std::uint32_t>& bricks, std::uint32_t tick, std::uint32_t version,
                          const gl::Texture& brick_changed) {
     if (bricks.empty()) return;
-    gl::Buffer touched("touched bricks", bricks.size() * word);
+    gl::Buffer touched("touched bricks", bricks.size() * word_bytes);
     touched.upload(bricks);
     touched.bind_storage(STORAGE_ACTIVE);
     bind(touch_, tick - 1);
@@ -121,8 +118,9 @@ void ActivityPass::make_room_for(std::span<const BlockGrid> grids) {
         blocks_capacity_[i] = blocks;
         grown = true;
     }
-    if (grown) block_marks_ = gl::Buffer("block marks", (blocks_capacity_[0] + blocks_capacity_[1]) * word);
-    CHECK(block_marks_.bytes() >= marks * word);
+    if (grown)
+        block_marks_ = gl::Buffer("block marks", (blocks_capacity_[0] + blocks_capacity_[1]) * word_bytes);
+    CHECK(block_marks_.bytes() >= marks * word_bytes);
 }
 
 void ActivityPass::begin_tick(std::uint32_t tick, std::span<const BlockGrid> grids) {
@@ -135,7 +133,7 @@ void ActivityPass::begin_tick(std::uint32_t tick, std::span<const BlockGrid> gri
 
     const gl::Buffer& active = next();
     next_ = 1 - next_;
-    lists_[next_].upload(empty_list);
+    lists_[next_].upload(empty_work_list);
     if (++mark_ == 0) {
         block_marks_.clear();
         mark_ = 1;
@@ -145,7 +143,7 @@ void ActivityPass::begin_tick(std::uint32_t tick, std::span<const BlockGrid> gri
         wake_.set(names.block, grids[i].block_vox);
         wake_.set(names.offset, grids[i].offset_vox);
         wake_.set(names.count, grids[i].count(size_vox_));
-        awake_blocks_[i].upload(empty_list);
+        awake_blocks_[i].upload(empty_work_list);
         awake_blocks_[i].bind_storage(i == 0 ? STORAGE_AWAKE_BLOCKS : STORAGE_AWAKE_BLOCKS_WIDE);
     }
     wake_.set("size_vox", size_vox_);
@@ -167,7 +165,7 @@ void ActivityPass::list_blocks(std::size_t grid, std::uint32_t tick) {
     program.set("offset_vox", grids_[grid].offset_vox);
     program.set("count_blocks", grids_[grid].count(size_vox_));
     program.set("size_vox", size_vox_);
-    blocks_[grid].upload(empty_list);
+    blocks_[grid].upload(empty_work_list);
     blocks_[grid].bind_storage(STORAGE_BLOCKS);
     matter_.bind_storage(STORAGE_MATTER);
     if (!all) {
@@ -177,7 +175,8 @@ void ActivityPass::list_blocks(std::size_t grid, std::uint32_t tick) {
     }
     const std::size_t groups =
         (volume(grids_[grid].count(size_vox_)) + ACTIVE_PER_GROUP - 1) / ACTIVE_PER_GROUP;
-    program.dispatch({std::min(groups, groups_per_row), (groups + groups_per_row - 1) / groups_per_row, 1});
+    program.dispatch(
+        {std::min(groups, work_groups_per_row), (groups + work_groups_per_row - 1) / work_groups_per_row, 1});
     barrier();
 }
 
@@ -199,13 +198,14 @@ void ActivityPass::run_blocks(const gl::Program& program, std::size_t grid, std:
 
 std::uint32_t ActivityPass::active_bricks() const {
     std::uint32_t count = 0;
-    next().download(std::span(&count, 1), (header_words - 1) * word);
+    next().download(std::span(&count, 1), (work_header_words - 1) * word_bytes);
     return count;
 }
 
 void ActivityPass::copy_active_bricks(const gl::Buffer& to, std::size_t offset_bytes) const {
-    glCopyNamedBufferSubData(next().name(), to.name(), static_cast<GLintptr>((header_words - 1) * word),
-                             static_cast<GLintptr>(offset_bytes), word);
+    glCopyNamedBufferSubData(next().name(), to.name(),
+                             static_cast<GLintptr>((work_header_words - 1) * word_bytes),
+                             static_cast<GLintptr>(offset_bytes), word_bytes);
 }
 
 void ActivityPass::poll_reload(std::vector<std::string>& messages) {

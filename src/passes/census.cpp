@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "passes/bricks.h"
+#include "passes/work_list.h"
 #include "shared/bindings.h"
 
 namespace tarn {
@@ -11,8 +12,6 @@ namespace tarn {
 namespace {
 
 constexpr std::size_t bytes = 256;  // that a cell can hold
-constexpr std::size_t word = sizeof(std::uint32_t);
-constexpr std::array<std::uint32_t, 4> empty_list{0, 0, 1, 0};  // WorkHeader of glsl/lib/work_list.glsl
 
 std::size_t tiles_of(glm::ivec3 size_vox) {
     const glm::ivec3 tiles = (size_vox + CENSUS_TILE - 1) / CENSUS_TILE;
@@ -24,11 +23,11 @@ std::size_t tiles_of(glm::ivec3 size_vox) {
 CensusPass::CensusPass(glm::ivec3 size_vox)
     : tiles_program_({.label = "census tiles", .compute = "pass/census_tiles.comp"}),
       count_program_({.label = "census", .compute = "pass/census.comp"}),
-      counts_("cell counts", bytes * word),
-      stale_tiles_("stale tiles", (empty_list.size() + tiles_of(size_vox)) * word),
-      tile_listed_("tile listed", tiles_of(size_vox) * word),
-      tile_counts_("tile counts", tiles_of(size_vox) * bytes * word),
-      result_("cell counts, to be read", (bytes + 1) * word) {}
+      counts_("cell counts", bytes * word_bytes),
+      stale_tiles_("stale tiles", (empty_work_list.size() + tiles_of(size_vox)) * word_bytes),
+      tile_listed_("tile listed", tiles_of(size_vox) * word_bytes),
+      tile_counts_("tile counts", tiles_of(size_vox) * bytes * word_bytes),
+      result_("cell counts, to be read", (bytes + 1) * word_bytes) {}
 
 CensusPass::~CensusPass() {
     if (fence_ != nullptr) glDeleteSync(fence_);
@@ -39,7 +38,7 @@ void CensusPass::record(const Inputs& in, gl::Timers& timers) {
     const auto scope = timers.scope("census");
     const ChangeLog& changes = in.activity.changes();
     reader_.read(changes, in.version);
-    stale_tiles_.upload(empty_list);
+    stale_tiles_.upload(empty_work_list);
     counts_.bind_storage(0);
     stale_tiles_.bind_storage(STORAGE_STALE_TILES);
     tile_listed_.bind_storage(STORAGE_TILE_LISTED);
@@ -53,8 +52,8 @@ void CensusPass::record(const Inputs& in, gl::Timers& timers) {
     glDispatchComputeIndirect(0);
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
-    glCopyNamedBufferSubData(counts_.name(), result_.name(), 0, 0, bytes * word);
-    in.activity.copy_active_bricks(result_, bytes * word);
+    glCopyNamedBufferSubData(counts_.name(), result_.name(), 0, 0, bytes * word_bytes);
+    in.activity.copy_active_bricks(result_, bytes * word_bytes);
     fence_ = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
 }
 

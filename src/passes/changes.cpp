@@ -1,4 +1,5 @@
 #include "passes/changes.h"
+#include "passes/work_list.h"
 
 #include <array>
 #include <bit>
@@ -7,7 +8,6 @@ namespace tarn {
 
 namespace {
 
-constexpr std::size_t word = sizeof(std::uint32_t);
 constexpr std::size_t log_header_words = 2;     // of ChangeLog in glsl/lib/changes.glsl
 constexpr std::size_t reader_words = 8;         // NewChanges of glsl/lib/new_changes.glsl
 constexpr std::size_t reader_version_word = 7;  // new_changes_version
@@ -18,7 +18,7 @@ constexpr std::uint64_t changes_apart_max = std::uint64_t{1} << 31;
 ChangeLog::ChangeLog(glm::ivec3 size_bricks, std::uint32_t written)
     : bricks_(static_cast<std::uint32_t>(size_bricks.x * size_bricks.y * size_bricks.z)),
       capacity_(std::bit_ceil(bricks_)),
-      entries_("change log", (log_header_words + capacity_) * word) {
+      entries_("change log", (log_header_words + capacity_) * word_bytes) {
     entries_.upload(std::array<std::uint32_t, log_header_words>{written, capacity_ - 1});
 }
 
@@ -31,7 +31,7 @@ void ChangeLog::add_all() {
 
 ChangeReader::ChangeReader()
     : program_({.label = "read changes", .compute = "pass/changes_read.comp"}),
-      state_("new changes", reader_words * word) {}
+      state_("new changes", reader_words * word_bytes) {}
 
 void ChangeReader::read(const ChangeLog& log, std::uint32_t version) {
     // The count of changes is of 32 bits: whoever stayed away for too long begins anew.
@@ -60,7 +60,7 @@ void ChangeReader::run(const gl::Program& program, const ChangeLog& log) const {
 std::uint32_t ChangeReader::last_change() const {
     if (!last_change_) {
         std::uint32_t version = 0;
-        state_.download(std::span(&version, 1), reader_version_word * word);
+        state_.download(std::span(&version, 1), reader_version_word * word_bytes);
         last_change_ = version;
     }
     return *last_change_;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdlib>
 
+#include "reference/water_lines.h"
 #include "shared/hash.h"
 #include "shared/water.h"
 #include "world/schedule.h"
@@ -11,8 +12,6 @@
 namespace tarn::reference {
 
 namespace {
-
-constexpr int full = static_cast<int>(QUANTA_PER_VOXEL);
 
 bool is_fluid(std::uint8_t byte) {
     return byte == MATERIAL_AIR || is_water(byte);

@@ -14,12 +14,10 @@ namespace tarn::reference {
 
 namespace {
 
-constexpr int full = static_cast<int>(QUANTA_PER_VOXEL);
-
 // The cells of one block, as what they hold; cells outside the world are closed.
-class Block {
+class LevelBlock {
   public:
-    Block(const Cells& cells, const PressureField* field, glm::ivec3 first, glm::ivec3 size)
+    LevelBlock(const Cells& cells, const PressureField* field, glm::ivec3 first, glm::ivec3 size)
         : first_(first), size_(size), has_field_(field != nullptr) {
         for (int z = 0; z < size.z; ++z)
             for (int y = 0; y < size.y; ++y)
@@ -77,12 +75,12 @@ class Block {
 constexpr glm::ivec3 up{0, 1, 0};
 
 // Height in quarter voxels of the water in a cell of layer y.
-int surface_height(int y, int content) {
+int head_of_surface(int y, int content) {
     return y * head_per_voxel + content * head_per_voxel / full;
 }
 
 // One cell of a column: sand sinks, water falls, unless the head below holds it.
-void fall(Block& block, glm::ivec3 upper, bool sinks_in_water) {
+void fall(LevelBlock& block, glm::ivec3 upper, bool sinks_in_water) {
     int& u = block.at(upper);
     int& l = block.at(upper - up);
     if (!is_open(l)) return;
@@ -91,7 +89,7 @@ void fall(Block& block, glm::ivec3 upper, bool sinks_in_water) {
     } else if (is_open(u) && u > 0 && l < full) {
         const std::uint32_t head = block.head(upper - up);
         const bool held = is_confined(head) && 2 * l >= full &&
-                          height_of(head) >= surface_height(block.layer(upper), u) + head_per_voxel;
+                          height_of(head) >= head_of_surface(block.layer(upper), u) + head_per_voxel;
         if (held) return;
         const int falling = std::min(u, full - l);
         u -= falling;
@@ -99,7 +97,7 @@ void fall(Block& block, glm::ivec3 upper, bool sinks_in_water) {
     }
 }
 
-void columns(Block& block) {
+void columns(LevelBlock& block) {
     for (int sweep = 0; sweep < 2; ++sweep)
         for (int z = 0; z < block.size().z; ++z)
             for (int x = 0; x < block.size().x; ++x)
@@ -107,7 +105,7 @@ void columns(Block& block) {
 }
 
 // Sand that rests slides to the bottom of a neighbouring column, in sub-blocks of 2x2x2.
-void slide_sand(Block& block, std::uint32_t chance) {
+void slide_sand(LevelBlock& block, std::uint32_t chance) {
     const std::uint32_t sub = hash2(chance, 99);
     const glm::ivec3 start(sub & 1u, sub >> 1 & 1u, sub >> 2 & 1u);
     for (int z = start.z; z + 1 < block.size().z; z += 2)
@@ -138,7 +136,7 @@ struct Support {
 };
 
 // What water in each cell of a layer stands on. Of the block's lowest layer only the world's floor is known.
-std::vector<Support> supports_of(const Block& block, int y) {
+std::vector<Support> supports_of(const LevelBlock& block, int y) {
     std::vector<Support> supports;
     for (int z = 0; z < block.size().z; ++z)
         for (int x = 0; x < block.size().x; ++x) {
@@ -156,7 +154,7 @@ std::vector<Support> supports_of(const Block& block, int y) {
 
 // The line of cells from `start` on, `step` apart, while inside the block. `side`: steps to the two cells
 // that a diagonal passes between, zero along an axis.
-void level_along(Block& block, const std::vector<Support>& supports, glm::ivec3 start, glm::ivec3 step,
+void level_along(LevelBlock& block, const std::vector<Support>& supports, glm::ivec3 start, glm::ivec3 step,
                  const LineRule& rule, std::uint32_t chance) {
     std::vector<glm::ivec3> cells;
     for (glm::ivec3 p = start; block.contains(p); p += step) cells.push_back(p);
@@ -182,14 +180,14 @@ std::uint32_t line_chance(std::uint32_t chance, int kind, int y, int line) {
     return hash2(chance, static_cast<std::uint32_t>(kind << 16 | y << 8 | line));
 }
 
-std::vector<std::vector<Support>> supports_of_layers(const Block& block, int lowest) {
+std::vector<std::vector<Support>> supports_of_layers(const LevelBlock& block, int lowest) {
     std::vector<std::vector<Support>> layers(block.size().y);
     for (int y = lowest; y < block.size().y; ++y) layers[y] = supports_of(block, y);
     return layers;
 }
 
 // Lines along x and z, in an order by hash; what water stands on is looked at anew between them.
-void level_axes(Block& block, int lowest, int film_threshold, int least, std::uint32_t chance) {
+void level_axes(LevelBlock& block, int lowest, int film_threshold, int least, std::uint32_t chance) {
     for (int pass = 0; pass < 2; ++pass) {
         const bool along_x = (chance >> 30 & 1u) == static_cast<std::uint32_t>(pass);
         const auto supports = supports_of_layers(block, lowest);
@@ -203,7 +201,7 @@ void level_axes(Block& block, int lowest, int film_threshold, int least, std::ui
     }
 }
 
-void level_diagonals(Block& block, int lowest, int film_threshold, std::uint32_t chance) {
+void level_diagonals(LevelBlock& block, int lowest, int film_threshold, std::uint32_t chance) {
     const int side = block.size().x;
     for (int pass = 0; pass < 2; ++pass) {
         const bool rising = (chance >> 29 & 1u) == static_cast<std::uint32_t>(pass);
@@ -221,7 +219,7 @@ void level_diagonals(Block& block, int lowest, int film_threshold, std::uint32_t
 }
 
 // Confined water flows from the cell with more head, which keeps half.
-void press_sideways(Block& block, glm::ivec3 from, glm::ivec3 to) {
+void press_sideways(LevelBlock& block, glm::ivec3 from, glm::ivec3 to) {
     int& giving = block.at(from);
     int& taking = block.at(to);
     if (!is_open(giving) || !is_open(taking) || !block.pressed(to)) return;
@@ -231,13 +229,13 @@ void press_sideways(Block& block, glm::ivec3 from, glm::ivec3 to) {
     taking += moved;
 }
 
-void press_up(Block& block, glm::ivec3 lower, std::uint32_t chance) {
+void press_up(LevelBlock& block, glm::ivec3 lower, std::uint32_t chance) {
     const glm::ivec3 upper = lower + up;
     int& giving = block.at(lower);
     int& taking = block.at(upper);
     const std::uint32_t head = block.head(lower);
     if (!is_open(giving) || !is_open(taking) || !is_confined(head) || taking == full || giving == 0) return;
-    const int height = surface_height(block.layer(upper), taking);
+    const int height = head_of_surface(block.layer(upper), taking);
     if (height_of(head) < height + head_per_voxel) return;
     if (block.head(upper) > head) return;  // water comes from above
     const glm::ivec3 above = upper + up;
@@ -258,7 +256,7 @@ void press_up(Block& block, glm::ivec3 lower, std::uint32_t chance) {
 }
 
 // Water above that is nearer to the source flows down, whatever holds it.
-void press_down(Block& block, glm::ivec3 upper) {
+void press_down(LevelBlock& block, glm::ivec3 upper) {
     const glm::ivec3 lower = upper - up;
     int& giving = block.at(upper);
     int& taking = block.at(lower);
@@ -270,7 +268,7 @@ void press_down(Block& block, glm::ivec3 upper) {
 }
 
 // From the far end of each line towards the source, so that room travels the whole line.
-void press(Block& block, std::uint32_t chance) {
+void press(LevelBlock& block, std::uint32_t chance) {
     const glm::ivec3 size = block.size();
     const int first = static_cast<int>(chance >> 5 & 0xffu) % 3;
     for (int pass = 0; pass < 3; ++pass) {
@@ -321,7 +319,7 @@ void water_level_tick(Cells& cells, std::uint32_t seed, std::uint32_t tick, int 
     const bool diagonal = hash2(seed ^ SALT_DIAGONAL, tick) % 3 == 0;
     const glm::ivec3 tall(TALL_SIDE, TALL_HEIGHT, TALL_SIDE);
     for_blocks(cells, tall, seed, tick, activity, [&](glm::ivec3 first, std::uint32_t chance) {
-        Block block(cells, field, first, tall);
+        LevelBlock block(cells, field, first, tall);
         if (block.nothing_moves()) return;
         columns(block);
         slide_sand(block, chance);
@@ -335,7 +333,7 @@ void water_level_tick(Cells& cells, std::uint32_t seed, std::uint32_t tick, int 
     });
     const glm::ivec3 wide(WIDE_SIDE, WIDE_HEIGHT, WIDE_SIDE);
     for_blocks(cells, wide, seed ^ SALT_WIDE, tick, activity, [&](glm::ivec3 first, std::uint32_t chance) {
-        Block block(cells, field, first, wide);
+        LevelBlock block(cells, field, first, wide);
         if (block.nothing_moves()) return;
         level_axes(block, 1, film_threshold, WIDE_LEAST_QUANTA, chance);
         block.write(cells, field, activity);

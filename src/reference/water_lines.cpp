@@ -9,8 +9,6 @@ namespace tarn::reference {
 
 namespace {
 
-constexpr int full = static_cast<int>(QUANTA_PER_VOXEL);
-
 struct Extent {
     int total = 0, most = 0, least = full;
     bool on_water = true;  // all of it

@@ -3,9 +3,13 @@
 #include <cstdint>
 #include <span>
 
+#include "shared/materials.h"
+
 namespace tarn::reference {
 
-// What a cell holds: 0..16 quanta of water (0: air), or one of
+constexpr int full = static_cast<int>(QUANTA_PER_VOXEL);
+
+// What a cell holds: 0 to `full` quanta of water (0: air), or one of
 constexpr int content_sand = 32;
 constexpr int content_closed = 64;
 

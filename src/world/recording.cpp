@@ -19,10 +19,6 @@ constexpr int radius_max_vox = 256;
 constexpr const char* shape_names[] = {"sphere", "cube"};
 constexpr const char* stroke_names[] = {"undo", "redo"};
 
-std::string name_of(const std::string& path) {
-    return std::filesystem::path(path).stem().string();
-}
-
 std::size_t choice_of(const JsonNode& node, std::span<const char* const> names) {
     const auto found = std::find(names.begin(), names.end(), node.text());
     if (found == names.end()) node.refuse("no such choice", fmt::format("{}", fmt::join(names, ", ")));
@@ -103,7 +99,7 @@ Recording parse_recording(const std::string& text, const std::string& origin) {
     const JsonNode root = JsonNode::parse(text, origin);
     root.allow_only({"description", "camera", "frames", "lead_frames", "ticks_per_frame", "keys", "edits"});
     Recording recording;
-    recording.name = name_of(origin);
+    recording.name = asset_name(origin);
     if (const auto node = root.find("description")) recording.description = printable(node->text());
     constexpr const char* kinds[] = {"relative", "absolute"};
     recording.relative = choice_of(root.need("camera"), kinds) == 0;
@@ -125,14 +121,14 @@ Recording load_recording(const std::string& name_or_path) {
     if (name_or_path.find('/') != std::string::npos || name_or_path.ends_with(".json"))
         return parse_recording(read_text_file(name_or_path), name_or_path);
     for (const std::string& path : list_assets(folder))
-        if (name_of(path) == name_or_path) return parse_recording(read_asset(path), path);
+        if (asset_name(path) == name_or_path) return parse_recording(read_asset(path), path);
     fail("recording {}: no built-in recording of this name; allowed: {}, or a path to a .json file",
          printable(name_or_path), fmt::join(builtin_recordings(), ", "));
 }
 
 std::vector<std::string> builtin_recordings() {
     std::vector<std::string> names;
-    for (const std::string& path : list_assets(folder)) names.push_back(name_of(path));
+    for (const std::string& path : list_assets(folder)) names.push_back(asset_name(path));
     return names;
 }
 

@@ -91,10 +91,6 @@ void read_materials(const JsonNode& list, MaterialTable& table) {
     }
 }
 
-std::string name_of(const std::string& path) {
-    return fs::path(path).stem().string();
-}
-
 }  // namespace
 
 Scene parse_scene(const std::string& text, const std::string& origin, const Settings& base,
@@ -103,7 +99,7 @@ Scene parse_scene(const std::string& text, const std::string& origin, const Sett
     root.allow_only(
         {"description", "size", "metres_per_voxel", "seed", "camera", "sun", "sky", "materials", "build"});
     Scene scene;
-    scene.name = name_of(origin);
+    scene.name = asset_name(origin);
     scene.settings = base;
     const glm::ivec3 size = root.need("size").ivec3(1, world_side_max_vox);
     if (const auto node = root.find("description")) scene.description = printable(node->text());
@@ -131,8 +127,8 @@ Scene load_scene(const std::string& name_or_path, const Settings& base, std::opt
         return parse_scene(read_text_file(name_or_path), name_or_path, base, seed);
     std::string names;
     for (const std::string& path : list_assets(scene_folder)) {
-        if (name_of(path) == name_or_path) return parse_scene(read_asset(path), path, base, seed);
-        names += name_of(path) + ", ";
+        if (asset_name(path) == name_or_path) return parse_scene(read_asset(path), path, base, seed);
+        names += asset_name(path) + ", ";
     }
     fail("scene {}: no built-in scene of this name; allowed: {}or a path to a .json file",
          printable(name_or_path), names);
@@ -142,7 +138,7 @@ std::vector<SceneSummary> builtin_scenes() {
     std::vector<SceneSummary> scenes;
     for (const std::string& path : list_assets(scene_folder)) {
         const auto description = JsonNode::parse(read_asset(path), path).find("description");
-        scenes.push_back({name_of(path), description ? description->text() : ""});
+        scenes.push_back({asset_name(path), description ? description->text() : ""});
     }
     return scenes;
 }

@@ -20,7 +20,8 @@ bool lets_light_out(const Cells& cells, glm::ivec3 cell) {
     return id == MATERIAL_AIR || id == MATERIAL_WATER || id == MATERIAL_GLASS;
 }
 
-constexpr glm::ivec3 directions[] = {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}};
+constexpr glm::ivec3 face_directions[] = {{-1, 0, 0}, {1, 0, 0},  {0, -1, 0},
+                                          {0, 1, 0},  {0, 0, -1}, {0, 0, 1}};
 
 struct Leaves {  // by brick, x fastest
     std::vector<glm::uvec2> masks;
@@ -38,9 +39,10 @@ Leaves count_leaves(const Cells& cells, const MaterialTable& materials) {
                 const std::uint8_t byte = cells.at({x, y, z});
                 const glm::vec3 shines = materials[byte].emission;
                 if (is_water(byte) || std::max({shines.x, shines.y, shines.z}) <= 0) continue;
-                const int exposed = static_cast<int>(std::ranges::count_if(directions, [&](glm::ivec3 d) {
-                    return lets_light_out(cells, glm::ivec3(x, y, z) + d);
-                }));
+                const int exposed =
+                    static_cast<int>(std::ranges::count_if(face_directions, [&](glm::ivec3 d) {
+                        return lets_light_out(cells, glm::ivec3(x, y, z) + d);
+                    }));
                 if (exposed == 0) continue;
                 const glm::ivec3 brick = glm::ivec3(x, y, z) / BRICK_SIDE;
                 const std::size_t at = brick.x + std::size_t{1} * bricks.x * (brick.y + bricks.y * brick.z);
@@ -138,13 +140,13 @@ TEST_F(EmittersTest, TheTreeFollowsSingleCellsBesideALamp) {
     simulation.put_to_sleep();
     Tree tree(size, scene.materials);
     tree.update(simulation);
-    for (const glm::ivec3 d : directions) {
+    for (const glm::ivec3 d : face_directions) {
         simulation.write({{lamp + d, MATERIAL_AIR, MATERIAL_STONE}});
         simulation.step(1, Settings{});
         tree.update(simulation);
         expect_tree_of(tree, simulation.read_cells(), scene.materials);
     }
-    for (const glm::ivec3 d : directions) {
+    for (const glm::ivec3 d : face_directions) {
         simulation.write({{lamp + d, MATERIAL_STONE, MATERIAL_GLASS}});
         if (d.x == 0) tree.update(simulation);
     }
@@ -173,7 +175,7 @@ double solid_angle(const Cells& cells, const MaterialTable& materials, glm::dvec
             for (int x = 0; x < size.x; ++x) {
                 const glm::ivec3 cell(x, y, z);
                 if (materials[cells.at(cell)].emission.x <= 0) continue;
-                for (const glm::ivec3 d : directions) {
+                for (const glm::ivec3 d : face_directions) {
                     const int axis = d.x != 0 ? 0 : d.y != 0 ? 1 : 2;
                     const double plane = cell[axis] + (d[axis] > 0 ? 1 : 0);
                     const double distance = (from[axis] - plane) * d[axis];

@@ -11,10 +11,6 @@ namespace {
 
 using ScenesTest = GlTest;
 
-const char* name_of(WaterTier tier) {
-    return choice_names<WaterTier>()[static_cast<std::size_t>(tier)];
-}
-
 TEST_F(ScenesTest, Fault1_WaterNeitherAppearsNorDisappearsInAnyScene) {
     const std::vector<std::string> names = built_in_scenes();
     ASSERT_FALSE(names.empty());

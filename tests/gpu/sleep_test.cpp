@@ -19,10 +19,6 @@ using SleepTest = GlTest;
 
 constexpr std::array tiers{WaterTier::Block, WaterTier::Level, WaterTier::Pressure};
 
-const char* name_of(WaterTier tier) {
-    return choice_names<WaterTier>()[static_cast<std::size_t>(tier)];
-}
-
 Settings settings_of(WaterTier tier) {
     Settings settings;
     settings.water_tier = tier;

@@ -6,9 +6,14 @@
 #include <array>
 #include <random>
 
+#include "core/settings.h"
 #include "world/cells.h"
 
 namespace tarn {
+
+inline const char* name_of(WaterTier tier) {
+    return choice_names<WaterTier>()[static_cast<std::size_t>(tier)];
+}
 
 // Whether two worlds agree; names the first cell that differs.
 inline testing::AssertionResult same_cells(const Cells& gpu, const Cells& reference) {

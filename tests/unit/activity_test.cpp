@@ -12,10 +12,10 @@ namespace {
 
 using reference::Activity;
 
-const glm::ivec3 size_vox(5 * BRICK_SIDE + 3, 5 * BRICK_SIDE, 6 * BRICK_SIDE + 1);
+const glm::ivec3 world_size_vox(5 * BRICK_SIDE + 3, 5 * BRICK_SIDE, 6 * BRICK_SIDE + 1);
 
 Activity asleep() {
-    Activity activity(size_vox);
+    Activity activity(world_size_vox);
     for (int i = 0; i <= SLEEP_TICKS; ++i) activity.begin_tick();
     return activity;
 }
@@ -25,7 +25,7 @@ bool brick_is_awake(const Activity& activity, glm::ivec3 brick) {
 }
 
 TEST(Activity, everything_is_awake_first_and_sleeps_after_the_same_time) {
-    Activity activity(size_vox);
+    Activity activity(world_size_vox);
     for (int tick = 0; tick < SLEEP_TICKS; ++tick) {
         activity.begin_tick();
         EXPECT_EQ(activity.active_bricks(), 6u * 5 * 7) << tick;
@@ -34,13 +34,13 @@ TEST(Activity, everything_is_awake_first_and_sleeps_after_the_same_time) {
     activity.begin_tick();
     EXPECT_EQ(activity.active_bricks(), 0u);
     EXPECT_FALSE(activity.any_awake());
-    EXPECT_FALSE(activity.runs({0, 0, 0}, size_vox));
+    EXPECT_FALSE(activity.runs({0, 0, 0}, world_size_vox));
 }
 
 TEST(Activity, a_change_wakes_its_brick_and_all_neighbours_for_so_many_ticks) {
     for (const glm::ivec3 at : {glm::ivec3(2, 1, 3), glm::ivec3(0, 0, 0), glm::ivec3(5, 4, 6)}) {
         Activity activity = asleep();
-        activity.changed(glm::min(at * BRICK_SIDE + BRICK_SIDE - 1, size_vox - 1));
+        activity.changed(glm::min(at * BRICK_SIDE + BRICK_SIDE - 1, world_size_vox - 1));
         for (int tick = 0; tick < SLEEP_TICKS; ++tick) {
             activity.begin_tick();
             EXPECT_EQ(activity.active_bricks(), 1u);
@@ -100,7 +100,7 @@ TEST(Activity, always_awake_runs_all_and_lets_sleep_again) {
     EXPECT_TRUE(activity.runs({0, 0, 0}, {1, 1, 1}));
     activity.set_always_awake(false);
     activity.begin_tick();
-    EXPECT_FALSE(activity.runs({0, 0, 0}, size_vox));
+    EXPECT_FALSE(activity.runs({0, 0, 0}, world_size_vox));
 }
 
 // Of a whole simulation: the change's own tick does not count, and the rule's settings wake.

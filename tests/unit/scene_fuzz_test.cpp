@@ -10,7 +10,8 @@ namespace tarn {
 namespace {
 
 // Every kind of key, in a world too small to cost time. Damage must not make it large: no digit is inserted.
-constexpr auto whole = R"({"description": "all keys", "size": [9, 8, 7], "metres_per_voxel": 0.5, "seed": 3,
+constexpr auto scene_of_all_keys =
+    R"({"description": "all keys", "size": [9, 8, 7], "metres_per_voxel": 0.5, "seed": 3,
  "camera": {"position_vox": [1, 2, 3], "yaw_deg": 4, "pitch_deg": 5, "fov_deg": 60},
  "sun": {"azimuth_deg": 1, "elevation_deg": 2, "irradiance": [1, 1, 1], "angular_radius_deg": 0.3},
  "sky": {"zenith": [0, 0, 1], "horizon": [1, 1, 1]},
@@ -38,7 +39,7 @@ bool parses(const std::string& text) {
 
 TEST(SceneFuzz, DamagedTextsAreReadOrRefusedInOneLine) {
     constexpr char replacements[] = "{}[]\",:.-+eEnull \n\t\\\0\x01\x7f\xff\xc3";
-    const std::string good = whole;
+    const std::string good = scene_of_all_keys;
     ASSERT_TRUE(parses(good));
     int refused = 0;
     constexpr std::uint32_t runs = 20000;

@@ -14,7 +14,7 @@
 namespace tarn {
 namespace {
 
-std::string error_of(const std::string& text) {
+std::string error_of_scene(const std::string& text) {
     try {
         parse_scene(text, "bad.json", Settings{});
     } catch (const Error& error) {
@@ -38,7 +38,7 @@ struct BadScene {
 
 void expect_refused(const std::vector<BadScene>& bad_scenes) {
     for (const BadScene& bad : bad_scenes) {
-        const std::string error = error_of(bad.text);
+        const std::string error = error_of_scene(bad.text);
         EXPECT_TRUE(error.starts_with("bad.json: ")) << bad.text << "\n" << error;
         EXPECT_EQ(error.find('\n'), std::string::npos) << error;
         for (const std::string& part : bad.said)

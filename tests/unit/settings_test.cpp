@@ -9,7 +9,7 @@
 namespace tarn {
 namespace {
 
-std::string error_of(const std::string& assignment) {
+std::string error_of_assignment(const std::string& assignment) {
     Settings settings;
     try {
         set_assignment(settings, assignment);
@@ -32,18 +32,19 @@ TEST(Settings, EveryDefaultLiesInItsRangeAndReadsBack) {
 }
 
 TEST(Settings, BadValuesNameTheKeyTheReasonAndTheRange) {
-    EXPECT_EQ(error_of("max_bounces=-3"),
+    EXPECT_EQ(error_of_assignment("max_bounces=-3"),
               "setting max_bounces=-3: out of range; allowed: a whole number from 0 to 1024");
-    EXPECT_NE(error_of("max_bounces=1.5").find("not a whole number"), std::string::npos);
-    EXPECT_NE(error_of("exposure_ev=nan").find("not a finite number"), std::string::npos);
-    EXPECT_NE(error_of("exposure_ev=inf").find("not a finite number"), std::string::npos);
-    EXPECT_NE(error_of("exposure_ev=").find("not a finite number"), std::string::npos);
-    EXPECT_NE(error_of("quality=best").find("baseline, fast, balanced, quality, exact"), std::string::npos);
-    EXPECT_NE(error_of("water_color=1,1").find("three numbers"), std::string::npos);
-    EXPECT_NE(error_of("water_color=1,1,1,1").find("allowed"), std::string::npos);
-    EXPECT_NE(error_of("water_color=0,1,1").find("out of range"), std::string::npos);
-    EXPECT_NE(error_of("wetness=1").find("no such setting"), std::string::npos);
-    EXPECT_NE(error_of("max_bounces").find("key=value"), std::string::npos);
+    EXPECT_NE(error_of_assignment("max_bounces=1.5").find("not a whole number"), std::string::npos);
+    EXPECT_NE(error_of_assignment("exposure_ev=nan").find("not a finite number"), std::string::npos);
+    EXPECT_NE(error_of_assignment("exposure_ev=inf").find("not a finite number"), std::string::npos);
+    EXPECT_NE(error_of_assignment("exposure_ev=").find("not a finite number"), std::string::npos);
+    EXPECT_NE(error_of_assignment("quality=best").find("baseline, fast, balanced, quality, exact"),
+              std::string::npos);
+    EXPECT_NE(error_of_assignment("water_color=1,1").find("three numbers"), std::string::npos);
+    EXPECT_NE(error_of_assignment("water_color=1,1,1,1").find("allowed"), std::string::npos);
+    EXPECT_NE(error_of_assignment("water_color=0,1,1").find("out of range"), std::string::npos);
+    EXPECT_NE(error_of_assignment("wetness=1").find("no such setting"), std::string::npos);
+    EXPECT_NE(error_of_assignment("max_bounces").find("key=value"), std::string::npos);
 }
 
 TEST(Settings, AQualityPresetSetsWhatItNamesAndPresetsDiffer) {
