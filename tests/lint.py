@@ -23,20 +23,20 @@ SOURCES_IN_UNIT = 10
 # The analyzer follows a function through at most so many states, in place of 225,000: templates of JSON and of the
 # command line took half of all the time, and what our functions need is far below.
 MAX_NODES = 30000
-# What is GCC's alone, and names that hide others of a unit only.
+# What is GCC's alone, and -Wshadow, which would see the names of a unit's other sources: GCC asks for it, too.
 GCC_ONLY = re.compile(r"-Winvalid-pch|-include \S+|-Wno-error=\S+|-Wshadow")
 CLANG_TIDY = ["clang-tidy", "--quiet"] + [
     f"--extra-arg={part}" for part in ("-Xclang", "-analyzer-config", "-Xclang", f"max-nodes={MAX_NODES}")]
 
 
 def flags_of(command):
-    return shlex.split(GCC_ONLY.sub("", re.sub(r" -o \S+ -c \S+$", "", command)))[1:]
+    return shlex.split(GCC_ONLY.sub("", command))[1:-4]  # without the compiler, -o, -c and what they name
 
 
 def tidy(path, flags):
     """Exit status and what it says of `path`."""
     run = subprocess.run([*CLANG_TIDY, str(path), "--", *flags], capture_output=True, text=True)
-    return run.returncode, run.stdout
+    return run.returncode, run.stdout or run.stderr
 
 
 def lint(unit, sources, flags):
@@ -46,6 +46,8 @@ def lint(unit, sources, flags):
     if len(sources) > 1 and tidy(unit, [*flags, "-iquote", str(sources[0].parent)])[0] == 0:
         return ""
     results = [tidy(source, flags) for source in sources]
+    if len(sources) > 1 and all(status == 0 for status, _ in results):
+        print(f"{unit}: fails though its sources do not; do their names collide?")
     return "".join(said or f"{source}: clang-tidy failed\n"
                    for source, (status, said) in zip(sources, results) if status != 0)
 
@@ -67,9 +69,9 @@ def main():
     for (folder, flags), group in itertools.groupby(sorted(commands, key=lambda p: (alike(p), p)), alike):
         group = list(group)
         for first in range(0, len(group), SOURCES_IN_UNIT):
-            unit = out / pathlib.Path(folder).relative_to(root) / f"unit_{first // SOURCES_IN_UNIT}_{len(units)}.cpp"
+            unit = out / pathlib.Path(folder).relative_to(root) / f"unit_{len(units)}.cpp"
             units.append((unit, group[first:first + SOURCES_IN_UNIT], flags))
-    for config in root.glob("*/.clang-tidy"):
+    for config in [*root.glob("src/**/.clang-tidy"), *root.glob("tests/**/.clang-tidy")]:
         copy = out / config.relative_to(root)
         copy.parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(config, copy)

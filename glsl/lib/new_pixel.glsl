@@ -1,4 +1,4 @@
-// Whether a pixel shows what the last frame next to never saw, and so takes more paths (settings, new_pixel_samples).
+// Whether next to no path has told of what a pixel shows, so that it takes more of them (settings, new_pixel_samples).
 // Reads the images `previous_radiance` and `previous_surface` of the pass that includes it.
 #include "lib/camera.glsl"
 #include "lib/surface.glsl"

@@ -59,7 +59,7 @@ const float ANGLE_OF_A_JUMP = 0.05;
 float frames_kept_of_light(vec2 ndc, bool asked) {
     ivec2 last_traced = textureSize(traced_before, 0) - 1;
     ivec2 last = textureSize(retraced, 0) - 1;
-    float stride = float(retrace_stride);
+    float stride = float(max(retrace_stride, 1));
     const float reach = float(RETRACE_REACH_PX);
     float center = float(retrace_stride / 2) + 0.5;  // of a cell's pixel, in the first cell
     vec2 place = (ndc * 0.5 + 0.5) * vec2(last_traced + 1) - center;
@@ -67,7 +67,7 @@ float frames_kept_of_light(vec2 ndc, bool asked) {
     float difference = 0.0;
     float sum = 1e-20;
     // Where no lane asks, llvmpipe pays for one round.
-    int side = asked ? int(2.0 * reach / stride) : 0;
+    int side = asked ? 2 * int(RETRACE_REACH_PX) / max(retrace_stride, 1) : 0;
     for (int y = 0; y < side; ++y)
         for (int x = 0; x < side; ++x) {
             ivec2 cell = first + ivec2(x, y);

@@ -32,12 +32,12 @@ TARN_CONSTANT float ALBEDO_FACET_SPREAD = 2.0f;
 // In place of a material's id where a ray meets the sky.
 TARN_CONSTANT TARN_UINT SURFACE_SKY = 255u;
 
-// Of the pixels, along x and y, whose last path is traced again when the world changed: by itself, and by an edit. Few
-// paths meet what a mirror shows, and of one in nine the shadow of a block under a waterfall stayed for 15 frames in the
-// lake (of one in four 5, of all 5); edits are rarer than ticks, and can pay for more.
+// Along x and along y, one pixel in so many has its last path traced again when water or sand moved, and when an edit
+// changed the world. Few paths meet what a mirror shows: with a ninth of them after edits, too, `ghosts_test` takes 15
+// frames for a block put up, with a quarter 5, with all 5.
 TARN_CONSTANT TARN_UINT RETRACE_STRIDE = 3u;
 TARN_CONSTANT TARN_UINT RETRACE_STRIDE_OF_EDITS = 2u;
-// Paths up to so far away along x and y tell of a pixel: whole strides.
+// Paths up to so far away along x and y tell of a pixel; twice that is a multiple of either stride.
 TARN_CONSTANT TARN_UINT RETRACE_REACH_PX = 3u;
 
 // Most frames in exact mode's mean: a counter of them and of this one ends there.

@@ -1,6 +1,7 @@
 // The textures that a picture's size decides, and the framebuffers over them. Owned by the renderer.
 #pragma once
 #include <glm/glm.hpp>
+#include <optional>
 
 #include "gl/framebuffer.h"
 #include "gl/texture.h"
@@ -31,16 +32,16 @@ struct Sums {
 
 // Paths of the last frame, traced again: of one traced pixel in stride^2.
 struct Retraced {
-    std::uint32_t stride = 0;
+    int stride;
     gl::Texture paths;
     gl::Framebuffer target;
 
-    Retraced(glm::ivec2 traced_px, std::uint32_t stride_px) : stride(stride_px) {
-        const auto step = static_cast<int>(stride);
-        paths = gl::Texture(
-            {.label = "retraced", .format = GL_RGBA32F, .size = {(traced_px + step - 1) / step, 0}});
-        target = gl::Framebuffer("retrace", {&paths});
-    }
+    Retraced(glm::ivec2 traced_px, int stride_px)
+        : stride(stride_px),
+          paths({.label = "retraced",
+                 .format = GL_RGBA32F,
+                 .size = {(traced_px + stride_px - 1) / stride_px, 0}}),
+          target("retrace", {&paths}) {}
 };
 
 // Everything that depends on the picture's size. Upsampled: fewer pixels are traced than history keeps.
@@ -49,9 +50,9 @@ struct RenderTargets {
     bool exact, upsampled;
     gl::Texture radiance[2];  // traced; current and previous
     gl::Texture filtered[2], picture;
-    gl::Texture traced_surface;  // upsampled
-    gl::Texture antialiased;     // where asked for
-    Retraced retraced, retraced_of_edits;
+    gl::Texture traced_surface;           // upsampled
+    gl::Texture antialiased;              // where asked for
+    std::optional<Retraced> retraced[2];  // made when asked for; 1: after an edit
     FrameTargets frames[2];
     Sums sums[2];
     gl::Framebuffer trace_target[2], history_target[2], filter_target[2], sums_target[2], picture_target,
@@ -63,8 +64,6 @@ struct RenderTargets {
           exact(exact_mode),
           upsampled(upsampled_mode),
           picture({.label = "picture", .format = GL_RGBA8, .size = {shown, 0}}),
-          retraced(traced, RETRACE_STRIDE),
-          retraced_of_edits(traced, RETRACE_STRIDE_OF_EDITS),
           picture_target("picture", {&picture}) {
         const glm::ivec2 kept = kept_px();
         for (gl::Texture& texture : filtered)
@@ -89,6 +88,12 @@ struct RenderTargets {
     void add_antialiased() {
         antialiased = gl::Texture({.label = "antialiased", .format = GL_RGBA32F, .size = {kept_px(), 0}});
         antialias_target = gl::Framebuffer("antialias", {&antialiased});
+    }
+    const Retraced& retraced_after(bool edit) {
+        std::optional<Retraced>& paths = retraced[edit ? 1 : 0];
+        if (!paths)
+            paths.emplace(traced_px, static_cast<int>(edit ? RETRACE_STRIDE_OF_EDITS : RETRACE_STRIDE));
+        return *paths;
     }
     glm::ivec2 kept_px() const { return upsampled ? shown_px : traced_px; }
     const gl::Texture& traced_surface_of(int set) const {

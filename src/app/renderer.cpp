@@ -148,12 +148,12 @@ bool Renderer::Parts::water_may_move(const Simulation& simulation) const {
 // the world has not changed or nothing asks for it.
 const Retraced* Renderer::Parts::retrace(const Simulation& simulation, const TracePass& pass) {
     if (settings.history != History::Count || !settings.retrace_changes || !has_history) return nullptr;
-    if (!world_changed(simulation)) return nullptr;
     const bool edited = simulation.last_edit() > world_version;
-    const Retraced& retraced = edited ? targets->retraced_of_edits : targets->retraced;
+    if (!edited && !world_changed(simulation)) return nullptr;
+    const Retraced& retraced = targets->retraced_after(edited);
     frame_block.upload(std::span(&block_before, 1));
     TracePass::Inputs inputs = trace_inputs(simulation, pass.features());
-    inputs.stride = retraced.stride;
+    inputs.stride = static_cast<std::uint32_t>(retraced.stride);
     // What this frame will write over is still the frame before the last, whose new pixels took more paths.
     ask_for_new_pixels(inputs, current);
     pass.record(inputs, {.target = retraced.target}, timers);
@@ -200,7 +200,7 @@ const gl::Texture& Renderer::Parts::reproject_and_filter(const Simulation& simul
                      .rejected = rejected,
                      .traced_before = retraced != nullptr ? &targets->radiance[1 - current] : nullptr,
                      .retraced = retraced != nullptr ? &retraced->paths : nullptr,
-                     .retrace_stride = retraced != nullptr ? retraced->stride : 1,
+                     .retrace_stride = retraced != nullptr ? retraced->stride : 0,
                      .previous_moments = views.previous_moments(current)},
                     {.history = views.history_target(*targets, current)}, timers);
         radiance = &targets->frames[current].history;

@@ -37,7 +37,7 @@
     REAL(max_distance_vox, 4096, 1, 10000000, LIGHT, IMAGE, "Longest ray in voxels; beyond it is sky.")      \
     INT(samples_per_pixel, 1, 1, 64, LIGHT, IMAGE, "Paths per pixel in each frame.")                         \
     INT(new_pixel_samples, 1, 1, 16, LIGHT, NONE,                                                            \
-        "Paths in place of each one, of a pixel that the last frame did not show, where history is count.")  \
+        "Paths in place of each one, of a pixel of fewer than 4 samples so far, where history is count.")    \
     REAL(resolution_scale, 1, 0.25, 1, LIGHT, TARGETS, "Traced pixels per shown pixel, along each side.")    \
     BOOL(guided_upsampling, true, LIGHT, IMAGE,                                                              \
          "Where fewer pixels are traced than shown: spread their light within the surfaces of the shown "    \
@@ -79,8 +79,8 @@
     INT(history_cap, 48, 1, 4096, IMAGE_FILTER, IMAGE,                                                       \
         "Most frames kept where history is count, 12 in flight.")                                            \
     BOOL(retrace_changes, true, IMAGE_FILTER, IMAGE,                                                         \
-         "After a change of the world trace a ninth of the last frame's paths again, where history is "      \
-         "count, "                                                                                           \
+         "After a change of the world trace a ninth of the last frame's paths again, a quarter after an "    \
+         "edit, where history is count, "                                                                    \
          "and keep less of it where their light changed: shadows and images in water follow.")               \
     BOOL(refine_at_rest, true, IMAGE_FILTER, IMAGE,                                                          \
          "While eye and world rest, add frames of quality exact and let the picture glide into their mean.") \

@@ -23,7 +23,7 @@ constexpr std::uint64_t reference_frames = std::uint64_t{1} << 20;
 
 // Frames of a turn when times are taken, after one that makes the targets; fewer where they are slow.
 constexpr int frames_of_turn = 2;
-constexpr int frames_until_seen = 5;  // each pixel, where one in 2x2 is traced
+constexpr int turns_of_new = 2;  // until a traced pixel is new no more (glsl/lib/new_pixel.glsl)
 constexpr double slow_frame_ms = 1500;
 
 double ms_of(const std::function<void()>& work) {
@@ -32,6 +32,13 @@ double ms_of(const std::function<void()>& work) {
     work();
     glFinish();
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+// Before the timed ones: those that make the targets and a history. A pixel's turn comes every 1 / scale^2
+// frames.
+int frames_before(const Settings& settings) {
+    if (settings.new_pixel_samples == 1) return 1;
+    return 1 + turns_of_new * static_cast<int>(std::ceil(1 / std::pow(settings.resolution_scale, 2.0f)));
 }
 
 Settings exact_settings() {
@@ -220,9 +227,7 @@ std::vector<double> TradeoffScene::measure_times(std::span<const Configuration> 
             if (slow && ms[c].size() > 1) continue;
             Settings settings = settings_of(configurations[c]);
             renderer_->reset_history();
-            // Frames that make the targets and a history.
-            const int before = settings.new_pixel_samples > 1 ? frames_until_seen : 1;
-            for (int i = 0; i < (round == 0 ? 1 : before); ++i)
+            for (int i = 0; i < (round == 0 ? 1 : frames_before(settings)); ++i)
                 draw(settings, round == 0 ? options_.error_px : options_.time_px);
             if (round == 0) continue;
             for (int i = 0; i < (slow ? 1 : frames_of_turn); ++i) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "measure/svg_plot.h"
+#include "measure/water_run.h"
 #include "measure/water_table.h"
 
 namespace tarn {

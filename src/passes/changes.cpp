@@ -1,8 +1,9 @@
 #include "passes/changes.h"
-#include "passes/work_list.h"
 
 #include <array>
 #include <bit>
+
+#include "passes/work_list.h"
 
 namespace tarn {
 

@@ -37,8 +37,7 @@ void TemporalPass::record(const Inputs& inputs, const Outputs& outputs, gl::Time
             inputs.retraced->bind(BINDING_FIRST_INPUT + 5);
             inputs.traced_before->bind(BINDING_FIRST_INPUT + 6);
         }
-        program_.set("retrace_stride",
-                     inputs.retraced != nullptr ? static_cast<int>(inputs.retrace_stride) : 0);
+        program_.set("retrace_stride", inputs.retrace_stride);
     }
     if (moments_) {
         if (inputs.previous_moments != nullptr) inputs.previous_moments->bind(BINDING_FIRST_INPUT + 4);

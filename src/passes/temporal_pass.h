@@ -29,8 +29,8 @@ class TemporalPass {
         // The previous frame's light as traced, and some of its paths in this world; null where none was
         // traced again. Not with blend.
         const gl::Texture* traced_before = nullptr;
-        const gl::Texture* retraced = nullptr;  // of one traced pixel in stride^2
-        std::uint32_t retrace_stride = 1;
+        const gl::Texture* retraced = nullptr;          // of one traced pixel in stride^2
+        int retrace_stride = 0;                         // 0: none was
         const gl::Texture* previous_moments = nullptr;  // with moments; null where the last frame kept none
     };
     struct Outputs {

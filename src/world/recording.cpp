@@ -1,7 +1,6 @@
 #include "world/recording.h"
 
 #include <algorithm>
-#include <filesystem>
 
 #include "core/assets.h"
 #include "core/error.h"

@@ -13,7 +13,7 @@ namespace {
 // hundred pixels, chance decides.
 class GhostsTest : public GlTest {
   protected:
-    // Of much smaller ones the block's shadow is a few pixels wide, fewer than retracing resolves, and lags.
+    // In much smaller pictures the block's shadow is a few pixels wide, fewer than retracing resolves, and lags.
     static constexpr glm::ivec2 size{240, 135};
     static constexpr int frames_of_steady = 50, frames_of_mean = 10;  // the last of them
     static constexpr int frames_allowed = 10;
