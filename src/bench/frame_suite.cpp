@@ -14,9 +14,10 @@ namespace tarn {
 namespace {
 
 constexpr double rays_least_ms = 200;  // as long as a frame, about
-// A game has a history: so many frames come before the timed ones, or as many as fit.
+// A game has a history, and few pixels that are new to it: so many frames come before the timed ones, or as
+// many as fit.
 constexpr int history_frames = 16;
-constexpr double history_ms_max = 1500;
+constexpr double history_ms_max = 5000;
 
 // One quality of one scene.
 class FrameCase {
