@@ -208,7 +208,7 @@ void tradeoff_options(CLI::App* tradeoff, Arguments& arguments, std::string& siz
     tradeoff->add_option(
         "--write-front", arguments.write_front,
         "Write the front for the slider and the governor; the program's is assets/front.json");
-    tradeoff->add_option("--configurations", arguments.configurations, "At most so many (200; --quick: 16)")
+    tradeoff->add_option("--configurations", arguments.configurations, "At most so many (200; --quick: 10)")
         ->check(CLI::Range(1, 200));
     tradeoff
         ->add_option("--reference-samples", arguments.reference_samples,
@@ -346,7 +346,7 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
         fail("{}; `tarn --help` and `tarn COMMAND --help` list what is allowed", one_line(error.what()));
     }
     arguments.command = app.get_subcommands().front()->get_name();
-    if (arguments.configurations == 0) arguments.configurations = arguments.quick ? 16 : 200;
+    if (arguments.configurations == 0) arguments.configurations = arguments.quick ? 10 : 200;
     if (arguments.reference_samples == 0) arguments.reference_samples = arguments.quick ? 256 : 512;
     if (!size.empty()) arguments.size_px = parse_size(size);
     return arguments;
