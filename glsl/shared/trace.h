@@ -33,8 +33,8 @@ TARN_CONSTANT float ALBEDO_FACET_SPREAD = 2.0f;
 TARN_CONSTANT TARN_UINT SURFACE_SKY = 255u;
 
 // Along x and along y, one pixel in so many has its last path traced again when water or sand moved, and when an edit
-// changed the world. Few paths meet what a mirror shows: with a ninth of them after edits, too, `ghosts_test` takes 15
-// frames for a block put up, with a quarter 5, with all 5.
+// changed the world. Few paths meet what a mirror shows: with a ninth of them after edits, too, `ghosts_test` prints 17
+// frames for a block put up, with a quarter 5.
 TARN_CONSTANT TARN_UINT RETRACE_STRIDE = 3u;
 TARN_CONSTANT TARN_UINT RETRACE_STRIDE_OF_EDITS = 2u;
 // Paths up to so far away along x and y tell of a pixel; twice that is a multiple of either stride.
